@@ -1,0 +1,140 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "survey/survey.hpp"
+#include "survey/trajectory.hpp"
+
+namespace terrawalk {
+
+struct ConfidenceInterval {
+    double low_m = 0.0;
+    double high_m = 0.0;
+};
+
+/// Error measures of n differences d = product - mark [m].
+/// Source: RMSE, mean, SD as in the ASPRS Positional Accuracy Standards, Edition 2; median and NMAD as in
+/// Hoehle and Hoehle 2009. SD needs n >= 2 and is absent below.
+struct ErrorStatistics {
+    std::size_t n = 0;
+    double mean_m = 0.0;
+    std::optional<double> sd_m;
+    double rmse_m = 0.0;
+    double mae_m = 0.0;
+    double median_m = 0.0;
+    double nmad_m = 0.0;
+    double largest_m = 0.0;  ///< the difference of greatest magnitude, with its sign
+    std::optional<ConfidenceInterval> rmse_95;  ///< bootstrap over the marks, seeded; needs n >= 5
+};
+
+enum class Stage {
+    BeforeFusion,  ///< sensors as they are
+    Fused,         ///< trajectory after fusion
+    Surface,       ///< triangulated surface
+};
+
+/// What was compared with the mark.
+enum class Quantity {
+    ArrayPosition,  ///< mean ground position below the array while it stood on the mark
+    NearestSample,  ///< height of the nearest ground point (the measure of the paper)
+    SurfaceHeight,  ///< height of the triangulated surface at the mark
+};
+
+[[nodiscard]] std::string_view name(Stage stage);
+[[nodiscard]] std::string_view name(Quantity quantity);
+
+/// product - mark at one mark. Axes that were not measured are missing (NaN).
+struct Residual {
+    Stage stage = Stage::Fused;
+    Quantity quantity = Quantity::SurfaceHeight;
+    std::string mark;
+    MarkRole role = MarkRole::Check;
+    std::string run;  ///< run that stood on the mark; empty for the surface
+    Eigen::Vector3d mark_enu_m = Eigen::Vector3d::Zero();
+    Eigen::Vector3d difference_enu_m = Eigen::Vector3d::Constant(kMissing);
+    Eigen::Vector3d sigma_enu_m = Eigen::Vector3d::Constant(kMissing);  ///< predicted, mark's own sigma included
+    bool used_by_estimator = false;  ///< the estimator was tied to this mark here, so it certifies nothing
+};
+
+/// Statistics of one group of residuals. Horizontal is the length of (e, n).
+struct AccuracyGroup {
+    Stage stage = Stage::Fused;
+    Quantity quantity = Quantity::SurfaceHeight;
+    MarkRole role = MarkRole::Check;
+    std::optional<ErrorStatistics> east, north, up, horizontal;
+};
+
+/// One parameter: what was asked for and what the program used.
+struct UsedSetting {
+    std::string key;
+    std::string requested;  ///< "default" when the user said nothing
+    std::string used;
+};
+
+struct InputFile {
+    std::string path;  ///< relative to the project's folder
+    std::size_t bytes = 0;
+    std::string sha256;
+};
+
+struct CountedReason {
+    std::string reason;
+    std::size_t count = 0;
+};
+
+struct RunReport {
+    std::string id;
+    RunKind kind = RunKind::Area;
+    std::size_t rows_read = 0;
+    std::size_t epochs = 0;  ///< rows kept
+    std::vector<std::size_t> repeated_lines;
+    std::vector<std::size_t> late_lines;
+    std::size_t cut_off_line = 0;
+    double duration_s = 0.0;
+    double distance_m = 0.0;  ///< length of the fused track
+    std::vector<CountedReason> fixes;  ///< epochs by GNSS fix
+    std::vector<SensorUse> sensors;
+    std::size_t ground_points_used = 0;
+    std::vector<CountedReason> ground_points_rejected;
+    std::vector<std::string> notes;
+    std::vector<Eigen::Vector3d> track_enu_m;  ///< thinned for drawing
+};
+
+struct SurfaceReport {
+    std::string method;
+    std::size_t points = 0;
+    std::size_t triangles = 0;
+    double longest_edge_m = 0.0;
+    double area_m2 = 0.0;
+    double cell_m = 0.0;
+    std::size_t columns = 0;
+    std::size_t rows = 0;
+    std::size_t cells_with_height = 0;
+    double lowest_m = 0.0;
+    double highest_m = 0.0;
+    std::string crs;             ///< human-readable name of the map frame
+    std::string vertical_datum;  ///< what the heights refer to
+};
+
+/// Everything that the report files say; each writer shows the same values.
+struct SurveyReport {
+    std::string survey_name;
+    std::string program_version;
+    std::string method;
+    std::uint64_t seed = 0;
+    std::vector<InputFile> inputs;
+    std::vector<UsedSetting> settings;
+    std::vector<RunReport> runs;
+    SurfaceReport surface;
+    std::vector<ControlMark> marks;
+    std::vector<Residual> residuals;
+    std::vector<AccuracyGroup> accuracy;
+    std::vector<std::string> limitations;  ///< what could not be checked, in plain sentences
+    std::vector<std::string> warnings;
+};
+
+}  // namespace terrawalk

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "survey/frames.hpp"
+
+namespace terrawalk {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// State of the array in one epoch of its log. Covariance order: position e, n, u [m], velocity e, n, u [m/s].
+struct TrajectoryEpoch {
+    double time_s = 0.0;
+    Eigen::Vector3d position_enu_m = Eigen::Vector3d::Zero();  ///< origin of the array, not the ground below it
+    Eigen::Vector3d velocity_enu_mps = Eigen::Vector3d::Zero();
+    Matrix6d covariance = Matrix6d::Zero();
+    Attitude attitude;
+    double sigma_tilt_rad = 0.0;     ///< roll and pitch, 1 sigma each
+    double sigma_heading_rad = 0.0;
+};
+
+/// One epoch for each epoch of the log, in the same order.
+struct Trajectory {
+    std::string run_id;
+    std::vector<TrajectoryEpoch> epochs;
+};
+
+/// What became of one sensor's measurements in one run: offered = used + sum of rejections.
+struct SensorUse {
+    struct Rejection {
+        std::string reason;
+        std::size_t count = 0;
+    };
+    std::string sensor;  ///< e.g. "GNSS position", "barometer"
+    std::size_t offered = 0;
+    std::size_t used = 0;
+    std::size_t down_weighted = 0;  ///< of the used ones
+    std::vector<Rejection> rejections;
+};
+
+/// A run after fusion (or without it, in raw mode).
+struct FusedRun {
+    Trajectory trajectory;
+    std::vector<SensorUse> sensors;
+    std::vector<std::string> notes;  ///< what was missing and what stood in for it, plain sentences
+};
+
+}  // namespace terrawalk
