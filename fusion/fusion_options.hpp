@@ -9,11 +9,170 @@ enum class FusionMethod {
     Ukf,  ///< 9-state unscented Kalman filter with a Rauch-Tung-Striebel pass
 };
 
-/// Every parameter of fusion. All sigmas are 1 sigma.
+/// In which epochs the GNSS height enters the filter.
+enum class GnssHeightUse {
+    Never,
+    Rtk,  ///< only when the fix is RTK fixed or RTK float
+    Always,
+};
+
+/// Spread of the sigma points: lambda = alpha^2 (n + kappa) - n. Source: paper 000, eq 13; Wan and van der
+/// Merwe 2000.
+struct UnscentedOptions {
+    double alpha = 0.1;
+    double beta = 2.0;
+    double kappa = 0.0;
+};
+
+/// White noise that drives the nine states, as spectral densities: variance that a second adds.
+/// Paper 000 tunes the diagonal of Q, one number for each state; these nine are that, free of the step
+/// length.
+struct ProcessNoiseOptions {
+    double position_e_m2ps = 1.0e-4;  ///< m^2/s
+    double position_n_m2ps = 1.0e-4;
+    double position_u_m2ps = 1.0e-4;
+    double velocity_e_m2ps3 = 0.2;  ///< m^2/s^3
+    double velocity_n_m2ps3 = 0.2;
+    double velocity_u_m2ps3 = 0.02;
+    double acceleration_e_m2ps5 = 0.5;  ///< m^2/s^5
+    double acceleration_n_m2ps5 = 0.5;
+    double acceleration_u_m2ps5 = 0.2;
+};
+
+struct ProcessOptions {
+    ProcessNoiseOptions noise;
+    /// Time in which an acceleration dies away [s] (Singer 1970). 0: it never does, the form of paper 000.
+    double acceleration_time_constant_s = 1.0;
+    double longest_step_s = 0.5;  ///< longer gaps between epochs are cut into steps no longer than this [s]
+};
+
+/// Where the run begins.
+struct InitialOptions {
+    double velocity_sigma_mps = 1.0;
+    double acceleration_sigma_mps2 = 1.0;
+    double walking_speed_mps = 1.5;  ///< by which a position ages while nothing measures it
+    double position_sigma_m = 10.0;  ///< around a known start mark, before its ties are applied
+    double still_speed_mps = 0.3;    ///< below this the array counts as standing still
+};
+
+struct GnssOptions {
+    bool use_position = true;
+    bool use_velocity = true;
+    GnssHeightUse use_height = GnssHeightUse::Rtk;
+    double sigma_single_m = 1.29;  ///< per horizontal axis; paper 000, table 3: 1.5 m CEP
+    double sigma_differential_m = 0.7;
+    double sigma_float_m = 0.31;
+    double sigma_fixed_m = 0.02;
+    double sigma_single_up_m = 1.95;
+    double sigma_differential_up_m = 1.1;
+    double sigma_float_up_m = 0.46;
+    double sigma_fixed_up_m = 0.035;
+    /// A receiver's own accuracy is used where it gives one, but never below this share of the sigma above.
+    double accuracy_floor_share = 0.5;
+    /// Correlation time of the position error [s] without an RTK fix. A white-noise filter must not believe
+    /// that it sees a new error in each epoch: the variance is multiplied by max(1, 2 tau / dt).
+    double correlation_s = 30.0;
+    double correlation_fixed_s = 5.0;  ///< the same for RTK fixed [s]
+    double velocity_sigma_mps = 0.15;  ///< Doppler, per horizontal axis
+    double velocity_sigma_up_mps = 0.3;
+    double velocity_correlation_s = 0.5;  ///< as `correlation_s`, for the Doppler velocity [s]
+};
+
+struct BarometerOptions {
+    bool use = true;
+    double scale = 1.0;          ///< height per height of the standard atmosphere, from a fit at known marks
+    double sigma_m = 0.06;       ///< white noise
+    double gust_sigma_m = 0.12;  ///< pressure of wind
+    double gust_correlation_s = 4.0;
+    double drift_m_per_sqrt_min = 0.08;  ///< random walk since the barometer was zeroed
+};
+
+struct FlowOptions {
+    bool use = true;
+    double variance_m2ps2 = 0.003;    ///< at rest
+    double variance_per_v2 = 0.0045;  ///< grows with the square of the speed
+    double scale_sigma = 0.04;        ///< lasting error of scale, as a share of the speed
+    double correlation_s =
+        15.0;  ///< for how long errors of scale and heading keep their direction over ground [s]
+    double smallest_quality = 1.0;  ///< flow_quality below this is rejected: no texture
+    bool bridge_dropouts = true;    ///< stand in for single missing readings with the recent mean flow
+    double bridge_after_s = 0.6;    ///< without a usable reading [s]
+    double bridge_sigma_mps = 2.0;  ///< of each epoch; the mean errs in the same way for seconds
+    double bridge_memory_s = 5.0;   ///< over which the mean is taken [s]
+};
+
+struct AccelerometerOptions {
+    bool use = true;
+    /// Steps of the walk, noise, and a bias that this filter has no state for: a sigma well below 0.5 lets
+    /// the bias of the vertical axis carry the height away from the barometer.
+    double sigma_mps2 = 1.0;
+};
+
+/// The yaw row atan2(v_n, v_e) of paper 000, eq 4. Off: the heading of a carried array is not its course, and
+/// the flow is already rotated by it.
+struct YawRowOptions {
+    bool use = false;
+    double sigma_deg = 10.0;
+    double slowest_mps = 0.3;       ///< below this the course has no meaning and the row is left out
+    double mount_offset_deg = 0.0;  ///< yaw of the array less course of the walk, counter-clockwise
+};
+
+struct AttitudeOptions {
+    double sigma_tilt_deg = 0.1;       ///< roll and pitch; paper 000, table 1, moving
+    double sigma_heading_deg = 3.0;    ///< paper 000, table 1 says 0.5, without the iron that a field holds
+    double sigma_tilt_held_deg = 5.0;  ///< while the last known attitude stands in
+    double sigma_heading_held_deg = 20.0;
+    double longest_hold_s = 1.0;           ///< a held heading still rotates the flow for so long [s]
+    double sigma_tilt_unknown_deg = 10.0;  ///< level is assumed
+};
+
+/// Known marks over which the array stood.
+struct TieOptions {
+    double sigma_m = 0.16;          ///< per horizontal axis: how well an array in the hand stands over a mark
+    double range_sigma_m = 0.06;    ///< paper 000, table 2
+    double shortest_range_m = 0.1;  ///< a range outside these says nothing of the height above a mark
+    double longest_range_m = 12.0;
+    double correlation_s = 0.1;  ///< of both [s], so that a faster log does not tie harder
+    double range_tolerance_m =
+        0.3;  ///< a range that stands off by more from the median of the stand is left out
+    double assumed_height_m = 1.2;  ///< of the array above the mark where no range was measured
+    double assumed_height_sigma_m = 0.3;
+};
+
+struct RobustOptions {
+    bool use = true;
+    double huber_sigma = 2.0;       ///< from here on the weight falls
+    double gate_sigma = 5.0;        ///< beyond this a reading is rejected
+    double readmit_after_s = 30.0;  ///< a sensor rejected for so long is believed, the filter is not
+};
+
+/// When a run is given up with an error instead of drawn.
+struct DivergenceOptions {
+    double largest_sigma_m = 1000.0;
+    double largest_gnss_distance_m = 300.0;
+    double patience_s = 60.0;     ///< for how long the track may be that far from GNSS [s]
+    double rejected_share = 0.8;  ///< of GNSS positions, averaged over `rejected_window_s`
+    double rejected_window_s = 300.0;
+};
+
+/// Every parameter of fusion. All sigmas are 1 sigma. Defaults were chosen on simulated surveys (seeds 1 to 3
+/// at three levels of faults) for small errors and for sigmas that own up to them.
 struct FusionOptions {
     FusionMethod method = FusionMethod::Ukf;
     bool smooth = true;  ///< Rauch-Tung-Striebel pass after the filter
     StandOptions stands;
+    UnscentedOptions unscented;
+    ProcessOptions process;
+    InitialOptions initial;
+    GnssOptions gnss;
+    BarometerOptions barometer;
+    FlowOptions flow;
+    AccelerometerOptions accelerometer;
+    YawRowOptions yaw_row;
+    AttitudeOptions attitude;
+    TieOptions ties;
+    RobustOptions robust;
+    DivergenceOptions divergence;
 };
 
 }  // namespace terrawalk

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <stop_token>
-#include <string>
 #include <vector>
 
+#include "fusion/simulation_options.hpp"
 #include "survey/progress.hpp"
 #include "survey/result.hpp"
 #include "survey/survey.hpp"
@@ -13,24 +12,17 @@
 
 namespace terrawalk {
 
-enum class SimulatedTerrain { TerracedOrchard, Gully, Plain, Ridge, Ramp };
-enum class FaultLevel { None, Mild, Severe };
-
-struct SimulationOptions {
-    std::uint64_t seed = 1;
-    SimulatedTerrain terrain = SimulatedTerrain::TerracedOrchard;
-    FaultLevel faults = FaultLevel::Mild;
-};
-
 /// A survey that never took place, with the truth that no real one has. Simulated, and named so.
 struct SimulatedSurvey {
     Survey survey;
-    std::vector<Trajectory> truth;  ///< for each run; covariance is zero
-    std::function<double(double e_m, double n_m)> terrain_height_m;
+    std::vector<Trajectory> truth;  ///< for each run, one epoch for each row of its log; covariance is zero
+    std::function<double(double e_m, double n_m)>
+        terrain_height_m;  ///< local ENU, defined everywhere; 0 at ZERO
 };
 
-/// Pure but for its random numbers, which come from the seed alone: the same options give the same survey on every
-/// machine.
+/// Makes a survey with truth. Errors: Usage when the options ask for what cannot be walked; Cancelled.
+/// Pure: its random numbers come from the seed alone, so the same options give the same survey. Between
+/// machines, the last digits can differ as far as their sin, pow and log do. Safe from any thread.
 [[nodiscard]] Result<SimulatedSurvey> simulateSurvey(const SimulationOptions& options, Progress& progress,
                                                      std::stop_token stop);
 

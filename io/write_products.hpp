@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "survey/elevation_grid.hpp"
@@ -15,26 +17,33 @@ namespace terrawalk {
 
 /// What a DEM file says of itself beside the heights.
 struct DemDescription {
-    std::string crs_wkt2;
-    std::string vertical_datum;  ///< metadata VERTICAL_DATUM
-    std::string title;           ///< TIFFTAG_IMAGEDESCRIPTION
-    std::string software;        ///< TIFFTAG_SOFTWARE
+    std::string crs_wkt2;                                       ///< as MapProjection::wkt2() gives it
+    std::string vertical_datum;                                 ///< metadata VERTICAL_DATUM
+    std::string title;                                          ///< TIFFTAG_IMAGEDESCRIPTION
+    std::string software;                                       ///< TIFFTAG_SOFTWARE
     std::vector<std::pair<std::string, std::string>> metadata;  ///< further items, e.g. METHOD
 };
 
-/// Writes a Cloud-Optimized GeoTIFF: Float32, nodata -9999, unit m, statistics, averaged overviews, everything
-/// inside the file. The same grid gives the same bytes.
+/// Writes a Cloud-Optimized GeoTIFF: Float32, nodata -9999, unit m, statistics, averaged overviews,
+/// everything inside the file; side files of an earlier raster of that name are removed. The same grid gives
+/// the same bytes. The file is read again before it takes its place. Errors: BadData for a grid without any
+/// height or with one that the file cannot hold, and for a CRS that GDAL does not know; System; Cancelled.
 [[nodiscard]] Result<void> writeDem(const ElevationGrid& grid, const DemDescription& description,
-                                    const std::filesystem::path& file);
+                                    const std::filesystem::path& file, std::stop_token stop = {});
 
-/// Binary little-endian PLY, float offsets from the origin that its comment states (integer metres).
+/// Binary little-endian PLY, float offsets from the origin that its comment states (integer metres). A float
+/// steps by at most 0.5 mm within 8 km of the origin. Errors: BadData for a mesh without triangles; System.
 [[nodiscard]] Result<void> writePly(const TriangleMesh& mesh, const std::string& crs_name,
                                     const std::filesystem::path& file);
-/// OBJ text, offsets from the origin that its comment states, 0.1 mm.
+/// OBJ text, offsets from the origin that its comment states, 0.1 mm. Errors as for writePly.
 [[nodiscard]] Result<void> writeObj(const TriangleMesh& mesh, const std::string& crs_name,
                                     const std::filesystem::path& file);
 
-[[nodiscard]] Result<void> writeTrajectoryCsv(const Trajectory& trajectory, const std::filesystem::path& file);
+/// One row for each epoch; heading clockwise from north, 0 <= heading < 360.
+[[nodiscard]] Result<void> writeTrajectoryCsv(const Trajectory& trajectory,
+                                              const std::filesystem::path& file);
+/// One row for each point, used or not; a point without a range has no coordinates.
+/// @param run_ids  names of the runs that the points count
 [[nodiscard]] Result<void> writeGroundPointsCsv(const std::vector<GroundPoint>& points,
                                                 const std::vector<std::string>& run_ids,
                                                 const std::filesystem::path& file);

@@ -6,7 +6,6 @@
 #include <stop_token>
 #include <vector>
 
-#include "survey/elevation_grid.hpp"
 #include "survey/progress.hpp"
 #include "survey/result.hpp"
 #include "survey/triangle_mesh.hpp"
@@ -14,29 +13,37 @@
 namespace terrawalk {
 
 struct TinOptions {
-    double longest_edge_m = 0.0;  ///< triangles with a longer edge (in plan) are left out; 0: from the points
+    /// Triangles with a longer edge (in plan) are left out, so that nothing is invented outside the walk.
+    /// 0: from the points, see edge_limit.hpp.
+    double longest_edge_m = 0.0;
 };
 
-/// The ground as triangles over the points, Delaunay in plan. Immutable; safe from any thread.
+/// The ground as triangles over the points, Delaunay in plan (CGAL, exact predicates). Any projected or local
+/// frame in metres; large coordinates lose nothing. Immutable and cheap to copy; safe from any thread.
 class DelaunayTin {
   public:
-    /// Triangulates; points at the same place in plan become one at their mean height. Any order of the points
-    /// gives the same surface. Errors: BadData for fewer than three points or all on one line; Cancelled.
+    /// Triangulates. Points at the same place in plan become one at their mean height. Any order of the
+    /// points gives the same surface, byte for byte, also where four points lie on one circle. Errors:
+    /// BadData for a coordinate that is not finite or beyond 1e9 m, for fewer than three distinct points, for
+    /// points all on one line, and for a limit that leaves no triangle; Usage for a limit below zero;
+    /// Cancelled.
     [[nodiscard]] static Result<DelaunayTin> build(const std::vector<Eigen::Vector3d>& points_m,
                                                    const TinOptions& options, Progress& progress,
                                                    std::stop_token stop);
 
-    [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
-    [[nodiscard]] double longestEdge_m() const { return longest_edge_m_; }  ///< the limit that was used
-    [[nodiscard]] double area_m2() const { return area_m2_; }
-    /// Height by linear interpolation; nothing outside the triangles.
+    /// Only vertices that a triangle uses, in the order of a Hilbert curve. Each triangle begins with its
+    /// lowest vertex index, and the triangles stand in rising order.
+    [[nodiscard]] const TriangleMesh& mesh() const;
+    [[nodiscard]] double longestEdge_m() const;  ///< the limit that was used
+    [[nodiscard]] double area_m2() const;        ///< in plan
+
+    /// Height by linear interpolation, edges and vertices included; nothing outside the triangles.
     [[nodiscard]] std::optional<double> heightAt(double x_m, double y_m) const;
 
   private:
-    DelaunayTin() = default;
-    TriangleMesh mesh_;
-    double longest_edge_m_ = 0.0;
-    double area_m2_ = 0.0;
+    struct Surface;
+    explicit DelaunayTin(std::shared_ptr<const Surface> surface);
+    std::shared_ptr<const Surface> surface_;
 };
 
 }  // namespace terrawalk

@@ -14,7 +14,8 @@
 
 namespace terrawalk {
 
-/// What the array measures, one column of the log each. The unit of a channel in memory stands in `kChannels`.
+/// What the array measures, one column of the log each. The unit of a channel in memory stands in
+/// `kChannels`.
 enum class Channel : std::uint8_t {
     Latitude,
     Longitude,
@@ -44,8 +45,8 @@ enum class Channel : std::uint8_t {
 };
 inline constexpr std::size_t kChannelCount = 25;
 
-/// Name in the file, and the factor from the file's unit to the unit in memory (degrees become radians, but for
-/// latitude and longitude).
+/// Name in the file, and the factor from the file's unit to the unit in memory (degrees become radians, but
+/// for latitude and longitude).
 struct ChannelInfo {
     std::string_view column;
     double unit_factor;
@@ -80,7 +81,9 @@ inline constexpr std::array<ChannelInfo, kChannelCount> kChannels{{
 
 /// The value of a channel in an epoch in which the sensor gave none.
 inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-[[nodiscard]] inline bool present(double value) { return !std::isnan(value); }
+[[nodiscard]] inline bool present(double value) {
+    return !std::isnan(value);
+}
 
 /// NMEA GGA quality codes, the ones that the program tells apart.
 namespace fix_code {
@@ -100,20 +103,21 @@ struct AuxiliaryColumn {
 
 /// What the reader did with the rows of one log.
 struct LogReadReport {
-    std::size_t rows_read = 0;                 ///< data rows in the file
-    std::vector<std::size_t> repeated_lines;   ///< line numbers of rows dropped for a repeated time
-    std::vector<std::size_t> late_lines;       ///< line numbers of rows that were put in order
-    std::size_t cut_off_line = 0;              ///< a last row cut in the middle and dropped; 0 when there is none
-    std::vector<std::string> notes;            ///< e.g. unknown columns and metadata keys, once each
+    std::size_t rows_read = 0;                ///< data rows in the file
+    std::vector<std::size_t> repeated_lines;  ///< line numbers of rows dropped for a repeated time
+    std::vector<std::size_t> late_lines;      ///< line numbers of rows that were put in order
+    std::size_t cut_off_line = 0;    ///< a last row cut in the middle and dropped; 0 when there is none
+    std::vector<std::string> notes;  ///< e.g. unknown columns and metadata keys, once each
 };
 
 /// One log of the array, column by column: channel(c)[i] belongs to time_s[i].
-/// Times are strictly increasing. A channel that the file lacks is empty, a value that an epoch lacks is missing.
+/// Times are strictly increasing. A channel that the file lacks is empty, a value that an epoch lacks is
+/// missing.
 struct ArrayLog {
     std::filesystem::path file;
     std::string device;
-    std::string start_utc;                                       ///< ISO 8601; empty when not known
-    double sample_interval_s = kMissing;                         ///< as the header says; missing when it does not
+    std::string start_utc;                ///< ISO 8601; empty when not known
+    double sample_interval_s = kMissing;  ///< as the header says; missing when it does not
     Eigen::Vector3d range_lever_arm_m = Eigen::Vector3d::Zero();  ///< range finder in the body frame
     Eigen::Vector3d gnss_lever_arm_m = Eigen::Vector3d::Zero();   ///< GNSS antenna in the body frame
     std::vector<double> time_s;

@@ -7,8 +7,9 @@
 
 namespace terrawalk {
 
-/// Where the cells of a north-up grid lie. Map frame, metres. Row 0 is the northernmost, column 0 the westernmost.
-/// `west_m` and `north_m` are the outer corner of cell (0, 0); both are integer multiples of the cell size.
+/// Where the cells of a north-up grid lie. Map frame, metres. Row 0 is the northernmost, column 0 the
+/// westernmost. `west_m` and `north_m` are the outer corner of cell (0, 0); both are integer multiples of the
+/// cell size.
 struct GridGeometry {
     double west_m = 0.0;
     double north_m = 0.0;

@@ -4,8 +4,8 @@
 
 namespace terrawalk {
 
-/// WGS 84 geodetic position. Latitude and longitude stay in degrees, the unit in which files and GeographicLib
-/// hold them; every other angle inside the program is in radians.
+/// WGS 84 geodetic position. Latitude and longitude stay in degrees, the unit in which files and
+/// GeographicLib hold them; every other angle inside the program is in radians.
 struct GeodeticPosition {
     double lat_deg = 0.0;
     double lon_deg = 0.0;
@@ -29,8 +29,12 @@ class LocalFrame {
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kStandardGravity_mps2 = 9.80665;
 
-[[nodiscard]] constexpr double radians(double degrees) { return degrees * (kPi / 180.0); }
-[[nodiscard]] constexpr double degrees(double radians) { return radians * (180.0 / kPi); }
+[[nodiscard]] constexpr double radians(double degrees) {
+    return degrees * (kPi / 180.0);
+}
+[[nodiscard]] constexpr double degrees(double radians) {
+    return radians * (180.0 / kPi);
+}
 
 /// Wraps an angle to (-pi, pi].
 [[nodiscard]] double wrapAngle(double angle_rad);

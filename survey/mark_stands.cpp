@@ -17,7 +17,8 @@ std::vector<MarkStand> markStands(const Survey& survey, const Run& run, const St
     };
     if (run.start) add(StandPlace::Start, *run.start, first_s, std::min(first_s + options.start_s, last_s));
     for (const Stop& stop : run.stops) add(StandPlace::Stop, stop.point, stop.from_s, stop.to_s);
-    if (run.target) add(StandPlace::Target, *run.target, std::max(last_s - options.target_s, first_s), last_s);
+    if (run.target)
+        add(StandPlace::Target, *run.target, std::max(last_s - options.target_s, first_s), last_s);
     std::stable_sort(stands.begin(), stands.end(),
                      [](const MarkStand& a, const MarkStand& b) { return a.from_s < b.from_s; });
     return stands;

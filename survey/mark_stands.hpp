@@ -21,12 +21,13 @@ struct MarkStand {
     ControlMark mark;
     double from_s = 0.0;
     double to_s = 0.0;
-    /// Whether the estimator may be tied to it: never to a check mark, and never at the target of a fixed-point
-    /// run, whose error is what such a run is walked for.
+    /// Whether the estimator may be tied to it: never to a check mark, and never at the target of a
+    /// fixed-point run, whose error is what such a run is walked for.
     bool may_tie = false;
 };
 
 /// All stands of a run, in time order. Marks that the survey lacks are left out (the reader refuses them).
-[[nodiscard]] std::vector<MarkStand> markStands(const Survey& survey, const Run& run, const StandOptions& options);
+[[nodiscard]] std::vector<MarkStand> markStands(const Survey& survey, const Run& run,
+                                                const StandOptions& options);
 
 }  // namespace terrawalk

@@ -12,15 +12,18 @@ std::string printable(const std::string& text) {
     out.reserve(text.size());
     for (std::size_t i = 0; i < text.size();) {
         const auto byte = static_cast<unsigned char>(text[i]);
-        const std::size_t length = byte < 0x80 ? 1 : byte >= 0xC2 && byte < 0xE0 ? 2 : byte >= 0xE0 && byte < 0xF0 ? 3
-                                                 : byte >= 0xF0 && byte < 0xF5   ? 4
-                                                                                 : 0;
+        const std::size_t length = byte < 0x80                   ? 1
+                                   : byte >= 0xC2 && byte < 0xE0 ? 2
+                                   : byte >= 0xE0 && byte < 0xF0 ? 3
+                                   : byte >= 0xF0 && byte < 0xF5 ? 4
+                                                                 : 0;
         bool whole = length > 0 && i + length <= text.size() && byte >= 0x20 && byte != 0x7F;
         for (std::size_t k = 1; whole && k < length; ++k) {
             whole = (static_cast<unsigned char>(text[i + k]) & 0xC0) == 0x80;
         }
         // U+0080..U+009F are control codes as well.
-        if (whole && length == 2 && byte == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0) whole = false;
+        if (whole && length == 2 && byte == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0)
+            whole = false;
         if (whole) {
             out.append(text, i, length);
             i += length;

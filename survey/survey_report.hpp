@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "survey/relief_image.hpp"
 #include "survey/survey.hpp"
 #include "survey/trajectory.hpp"
 
@@ -21,14 +22,15 @@ struct ConfidenceInterval {
 /// Hoehle and Hoehle 2009. SD needs n >= 2 and is absent below.
 struct ErrorStatistics {
     std::size_t n = 0;
+    std::size_t marks = 0;  ///< different marks among the n; fewer than n where runs met on a mark
     double mean_m = 0.0;
     std::optional<double> sd_m;
     double rmse_m = 0.0;
     double mae_m = 0.0;
     double median_m = 0.0;
     double nmad_m = 0.0;
-    double largest_m = 0.0;  ///< the difference of greatest magnitude, with its sign
-    std::optional<ConfidenceInterval> rmse_95;  ///< bootstrap over the marks, seeded; needs n >= 5
+    double largest_m = 0.0;                     ///< the difference of greatest magnitude, with its sign
+    std::optional<ConfidenceInterval> rmse_95;  ///< bootstrap over the marks, seeded; needs 5 marks
 };
 
 enum class Stage {
@@ -56,16 +58,41 @@ struct Residual {
     std::string run;  ///< run that stood on the mark; empty for the surface
     Eigen::Vector3d mark_enu_m = Eigen::Vector3d::Zero();
     Eigen::Vector3d difference_enu_m = Eigen::Vector3d::Constant(kMissing);
-    Eigen::Vector3d sigma_enu_m = Eigen::Vector3d::Constant(kMissing);  ///< predicted, mark's own sigma included
+    Eigen::Vector3d sigma_enu_m =
+        Eigen::Vector3d::Constant(kMissing);  ///< predicted, mark's own sigma included
     bool used_by_estimator = false;  ///< the estimator was tied to this mark here, so it certifies nothing
 };
 
-/// Statistics of one group of residuals. Horizontal is the length of (e, n).
+/// A comparison that was looked for and could not be made.
+struct MissingResidual {
+    Stage stage = Stage::Fused;
+    Quantity quantity = Quantity::SurfaceHeight;
+    std::string mark;
+    MarkRole role = MarkRole::Check;
+    std::string run;  ///< run that stood on the mark; empty but for the array's position
+};
+
+/// How honest the predicted sigmas are: of n differences, those within 1.96 sigma. 95 % is right.
+struct SigmaCoverage {
+    std::size_t n = 0;
+    std::size_t within = 0;
+};
+
+/// Statistics of one group of residuals. Horizontal is the length of (e, n): its mean, RMSE, MAE and median
+/// are those of the distance, its SD and NMAD the spread of the distance, never negative.
 struct AccuracyGroup {
     Stage stage = Stage::Fused;
     Quantity quantity = Quantity::SurfaceHeight;
     MarkRole role = MarkRole::Check;
     std::optional<ErrorStatistics> east, north, up, horizontal;
+    std::optional<SigmaCoverage> up_coverage;  ///< heights with a predicted sigma
+};
+
+/// One of the few figures that a reader looks for first, ready to print.
+struct KeyFigure {
+    std::string label;   ///< e.g. "Height error of the surface (RMSE)"
+    std::string value;   ///< with its unit, e.g. "0.213 m", or "not known"
+    std::string detail;  ///< e.g. "60 check marks; before fusion 0.612 m"
 };
 
 /// One parameter: what was asked for and what the program used.
@@ -95,7 +122,7 @@ struct RunReport {
     std::vector<std::size_t> late_lines;
     std::size_t cut_off_line = 0;
     double duration_s = 0.0;
-    double distance_m = 0.0;  ///< length of the fused track
+    double distance_m = 0.0;           ///< length of the fused track
     std::vector<CountedReason> fixes;  ///< epochs by GNSS fix
     std::vector<SensorUse> sensors;
     std::size_t ground_points_used = 0;
@@ -130,9 +157,14 @@ struct SurveyReport {
     std::vector<UsedSetting> settings;
     std::vector<RunReport> runs;
     SurfaceReport surface;
+    std::optional<ReliefPicture> relief;  ///< of the surface, under the map; not part of report.json
     std::vector<ControlMark> marks;
     std::vector<Residual> residuals;
+    std::vector<MissingResidual> missing_residuals;
     std::vector<AccuracyGroup> accuracy;
+    std::optional<std::size_t> headline;  ///< the group of `accuracy` that speaks for the product
+    std::vector<KeyFigure> figures;
+    std::vector<std::string> statements;   ///< what the marks say, in plain sentences
     std::vector<std::string> limitations;  ///< what could not be checked, in plain sentences
     std::vector<std::string> warnings;
 };

@@ -11,14 +11,16 @@ namespace terrawalk {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// State of the array in one epoch of its log. Covariance order: position e, n, u [m], velocity e, n, u [m/s].
+/// State of the array in one epoch of its log. Covariance order: position e, n, u [m], velocity e, n, u
+/// [m/s].
 struct TrajectoryEpoch {
     double time_s = 0.0;
-    Eigen::Vector3d position_enu_m = Eigen::Vector3d::Zero();  ///< origin of the array, not the ground below it
+    Eigen::Vector3d position_enu_m =
+        Eigen::Vector3d::Zero();  ///< origin of the array, not the ground below it
     Eigen::Vector3d velocity_enu_mps = Eigen::Vector3d::Zero();
     Matrix6d covariance = Matrix6d::Zero();
     Attitude attitude;
-    double sigma_tilt_rad = 0.0;     ///< roll and pitch, 1 sigma each
+    double sigma_tilt_rad = 0.0;  ///< roll and pitch, 1 sigma each
     double sigma_heading_rad = 0.0;
 };
 
@@ -41,11 +43,17 @@ struct SensorUse {
     std::vector<Rejection> rejections;
 };
 
+/// What a reader of the results should know of a run, in plain words.
+struct RunNotes {
+    std::vector<std::string> limitations;  ///< what the log lacks as a whole, and what stands in for it
+    std::vector<std::string> details;      ///< what happened on the way
+};
+
 /// A run after fusion (or without it, in raw mode).
 struct FusedRun {
     Trajectory trajectory;
     std::vector<SensorUse> sensors;
-    std::vector<std::string> notes;  ///< what was missing and what stood in for it, plain sentences
+    RunNotes notes;
 };
 
 }  // namespace terrawalk

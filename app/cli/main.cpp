@@ -1,0 +1,247 @@
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/interrupt.hpp"
+#include "app/cli/simulate_options.hpp"
+#include "app/cli/terminal_progress.hpp"
+#include "app/pipeline/jobs.hpp"
+#include "app/pipeline/json_output.hpp"
+#include "app/pipeline/version.hpp"
+
+namespace terrawalk {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kExitUsage = 2;
+
+int exitCode(ErrorKind kind) {
+    switch (kind) {
+        case ErrorKind::Usage:
+            return kExitUsage;
+        case ErrorKind::BadData:
+            return 3;
+        case ErrorKind::Cancelled:
+            return 4;
+        case ErrorKind::System:
+            return 1;
+    }
+    return 1;
+}
+
+/// Options that every command has.
+struct Common {
+    std::size_t threads = 0;
+    bool json = false;
+    bool quiet = false;
+};
+
+struct ProcessArguments {
+    fs::path survey;
+    fs::path output = "out";
+    fs::path config_file;
+    std::vector<std::string> settings;
+    std::optional<std::string> method;
+    std::optional<std::uint64_t> seed;
+};
+
+struct SimulateArguments {
+    fs::path output;
+    SimulationOptions options;
+};
+
+int fail(const Error& error, const Common& common, TerminalProgress& progress) {
+    progress.clear();
+    fmt::print(stderr, "terrawalk: {}\n", error.text());
+    if (common.json) fmt::print("{}\n", errorJson(error));
+    return exitCode(error.kind);
+}
+
+void addCommon(CLI::App& command, Common& common) {
+    command.add_option("--threads", common.threads, "Threads to work on; 0: one for each core")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    command.add_flag("--json", common.json, "Print the outcome as JSON");
+    command.add_flag("--quiet,-q", common.quiet, "Print errors only");
+}
+
+void addConfiguration(CLI::App& command, ProcessArguments& arguments) {
+    command.add_option("--config", arguments.config_file, "JSON file with parameters")->type_name("FILE");
+    command
+        .add_option("--set", arguments.settings, "Set one parameter; `terrawalk config describe` lists them")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command.add_option("--method", arguments.method, "Short for --set fusion.method=...");
+    command.add_option("--seed", arguments.seed, "Short for --set seed=...");
+}
+
+// The file first, then single settings, so that the command line has the last word.
+Result<PipelineConfig> configuration(const ProcessArguments& arguments) {
+    PipelineConfig config;
+    if (!arguments.config_file.empty()) {
+        if (auto done = applyConfigFile(config, arguments.config_file); !done)
+            return tl::unexpected(done.error());
+    }
+    std::vector<std::string> settings = arguments.settings;
+    if (arguments.method) settings.push_back("fusion.method=" + *arguments.method);
+    if (arguments.seed) settings.push_back(fmt::format("seed={}", *arguments.seed));
+    for (const std::string& setting : settings) {
+        if (auto done = applySetting(config, setting); !done) return tl::unexpected(done.error());
+    }
+    return config;
+}
+
+// What a second person has to type for the same result; what changes no byte of it is left out.
+Provenance provenanceOf(const ProcessArguments& arguments) {
+    Provenance provenance{{"terrawalk", "process", arguments.survey.string()}};
+    const auto add = [&](const std::string& option, const std::string& value) {
+        provenance.command.push_back(option);
+        provenance.command.push_back(value);
+    };
+    if (!arguments.config_file.empty()) add("--config", arguments.config_file.string());
+    for (const std::string& setting : arguments.settings) add("--set", setting);
+    if (arguments.method) add("--method", *arguments.method);
+    if (arguments.seed) add("--seed", std::to_string(*arguments.seed));
+    return provenance;
+}
+
+int runProcess(const ProcessArguments& arguments, const Common& common, TerminalProgress& progress,
+               const std::stop_token& stop) {
+    const auto config = configuration(arguments);
+    if (!config) return fail(config.error(), common, progress);
+    const auto products =
+        processSurvey(arguments.survey, *config, provenanceOf(arguments), arguments.output, progress, stop);
+    if (!products) return fail(products.error(), common, progress);
+    progress.clear();
+    if (common.json) {
+        fmt::print("{}", summaryJson(*products, arguments.output));
+    } else if (!common.quiet) {
+        fmt::print("Written to {}\n{}", arguments.output.string(), summaryText(*products));
+    }
+    return 0;
+}
+
+int runInspect(const fs::path& path, const Common& common, TerminalProgress& progress,
+               const std::stop_token& stop) {
+    const auto summaries = inspectFiles(path, progress, stop);
+    if (!summaries) return fail(summaries.error(), common, progress);
+    progress.clear();
+    if (common.json) {
+        fmt::print("{}", toJson(*summaries));
+    } else {
+        for (const LogSummary& summary : *summaries) fmt::print("{}\n", toText(summary));
+    }
+    return 0;
+}
+
+int runSimulate(const SimulateArguments& arguments, const Common& common, TerminalProgress& progress,
+                const std::stop_token& stop) {
+    const auto done = simulateSurveyFolder(arguments.options, arguments.output, progress, stop);
+    if (!done) return fail(done.error(), common, progress);
+    progress.clear();
+    const std::string project = (arguments.output / "survey.json").string();
+    if (common.json) {
+        fmt::print("{}", simulationJson(arguments.options, arguments.output));
+    } else if (!common.quiet) {
+        fmt::print("Simulated survey written to {}\nProcess it with: terrawalk process {} -o out\n",
+                   arguments.output.string(), project);
+    }
+    return 0;
+}
+
+int runConfigPrint(const ProcessArguments& arguments, const Common& common, TerminalProgress& progress) {
+    const auto config = configuration(arguments);
+    if (!config) return fail(config.error(), common, progress);
+    fmt::print("{}", toJson(*config));
+    return 0;
+}
+
+int runConfigDescribe(const Common& common) {
+    if (common.json) {
+        fmt::print("{}", parametersJson());
+        return 0;
+    }
+    for (const ParameterInfo& p : describeParameters()) {
+        fmt::print("{}\n    {}\n    default {}; permitted {}\n", p.key, p.meaning, p.default_value, p.range);
+    }
+    return 0;
+}
+
+int runConfigValidate(const fs::path& file, const Common& common, TerminalProgress& progress) {
+    PipelineConfig config;
+    if (auto done = applyConfigFile(config, file); !done) return fail(done.error(), common, progress);
+    if (!common.quiet) fmt::print("{}: good\n", file.string());
+    return 0;
+}
+
+int run(int argc, char** argv) {
+    const Interrupt interrupt;
+
+    CLI::App app{"Terrawalk turns a walk with a handheld sensor array into a terrain model."};
+    app.set_version_flag("--version", programVersion());
+    app.require_subcommand(1);
+    app.footer("Exit codes: 0 done, 1 the system refused, 2 wrong usage, 3 bad data, 4 cancelled.");
+    Common common;
+
+    ProcessArguments process;
+    CLI::App* process_command = app.add_subcommand("process", "Make the terrain model and its error report");
+    process_command->add_option("survey", process.survey, "survey.json, or the folder that holds it")
+        ->required();
+    process_command->add_option("-o,--output", process.output, "Folder for the products")
+        ->capture_default_str();
+    addConfiguration(*process_command, process);
+    addCommon(*process_command, common);
+
+    fs::path inspected;
+    CLI::App* inspect_command = app.add_subcommand("inspect", "Show what is in a log or a survey");
+    inspect_command->add_option("path", inspected, "survey.json, its folder, or one log")->required();
+    addCommon(*inspect_command, common);
+
+    SimulateArguments simulate;
+    CLI::App* simulate_command = app.add_subcommand("simulate", "Make a survey with known truth");
+    simulate_command->add_option("-o,--output", simulate.output, "Folder for the survey")->required();
+    addSimulationOptions(*simulate_command, simulate.options);
+    addCommon(*simulate_command, common);
+
+    CLI::App* config_command = app.add_subcommand("config", "Show and check parameters");
+    config_command->require_subcommand(1);
+    CLI::App* print_command = config_command->add_subcommand("print", "Print all parameters as JSON");
+    addConfiguration(*print_command, process);
+    addCommon(*print_command, common);
+    CLI::App* describe_command = config_command->add_subcommand("describe", "Explain every parameter");
+    addCommon(*describe_command, common);
+    fs::path validated;
+    CLI::App* validate_command = config_command->add_subcommand("validate", "Check a parameter file");
+    validate_command->add_option("file", validated, "JSON file with parameters")->required();
+    addCommon(*validate_command, common);
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : kExitUsage;
+    }
+
+    std::optional<tbb::global_control> limit;
+    if (common.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, common.threads);
+    TerminalProgress progress(common.quiet);
+    if (process_command->parsed()) return runProcess(process, common, progress, interrupt.token());
+    if (inspect_command->parsed()) return runInspect(inspected, common, progress, interrupt.token());
+    if (simulate_command->parsed()) return runSimulate(simulate, common, progress, interrupt.token());
+    if (print_command->parsed()) return runConfigPrint(process, common, progress);
+    if (describe_command->parsed()) return runConfigDescribe(common);
+    return runConfigValidate(validated, common, progress);
+}
+
+}  // namespace
+}  // namespace terrawalk
+
+int main(int argc, char** argv) {
+    return terrawalk::run(argc, argv);
+}

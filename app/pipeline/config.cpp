@@ -1,0 +1,509 @@
+#include "app/pipeline/config.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <type_traits>
+
+#include "survey/frames.hpp"
+
+namespace terrawalk {
+
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
+/// A parameter behind a key: how to read it, how to set it, what it may be.
+struct Parameter {
+    std::string key;
+    std::string range;
+    std::string meaning;
+    std::function<ordered_json(const PipelineConfig&)> get;
+    std::function<Result<void>(PipelineConfig&, const json&)> set;
+};
+
+std::string wrongValue(const Parameter& parameter, const json& value) {
+    const std::string shown = value.is_structured()
+                                  ? "a list or an object"
+                                  : value.dump(-1, ' ', false, json::error_handler_t::replace);
+    return fmt::format("{} = {} is not permitted", parameter.key, shown.substr(0, 80));
+}
+
+// `field` takes a configuration to a reference into it, const or not.
+template <class Field>
+Parameter number(std::string key, double least, double greatest, std::string meaning, Field field,
+                 double unit_factor = 1.0) {
+    Parameter p{std::move(key), {}, std::move(meaning), {}, {}};
+    p.range = greatest == kUnlimited ? fmt::format(">= {}", least) : fmt::format("{} to {}", least, greatest);
+    p.get = [field, unit_factor](const PipelineConfig& config) {
+        return ordered_json(unit_factor == 1.0 ? field(config)
+                                               : std::round(field(config) / unit_factor * 1e9) / 1e9);
+    };
+    p.set = [field, unit_factor, least, greatest, p](PipelineConfig& config,
+                                                     const json& value) -> Result<void> {
+        if (!value.is_number()) return usageError(wrongValue(p, value), "give a number");
+        const double shown = value.get<double>();
+        if (!(shown >= least && shown <= greatest) || !std::isfinite(shown)) {
+            return usageError(wrongValue(p, value), "permitted: " + p.range);
+        }
+        field(config) = shown * unit_factor;
+        return {};
+    };
+    return p;
+}
+
+template <class Field>
+Parameter angle(std::string key, double least_deg, double greatest_deg, std::string meaning, Field field) {
+    return number(std::move(key), least_deg, greatest_deg, std::move(meaning), field, kPi / 180.0);
+}
+
+template <class Field>
+Parameter integer(std::string key, std::int64_t least, std::int64_t greatest, std::string meaning,
+                  Field field) {
+    Parameter p{std::move(key), fmt::format("{} to {}", least, greatest), std::move(meaning), {}, {}};
+    p.get = [field](const PipelineConfig& config) {
+        return ordered_json(field(config));
+    };
+    p.set = [field, least, greatest, p](PipelineConfig& config, const json& value) -> Result<void> {
+        if (!value.is_number_integer()) return usageError(wrongValue(p, value), "give a whole number");
+        const bool too_big =
+            value.is_number_unsigned() && value.get<std::uint64_t>() > static_cast<std::uint64_t>(greatest);
+        if (too_big || value.get<std::int64_t>() < least || value.get<std::int64_t>() > greatest) {
+            return usageError(wrongValue(p, value), "permitted: " + p.range);
+        }
+        field(config) =
+            static_cast<std::remove_reference_t<decltype(field(config))>>(value.get<std::int64_t>());
+        return {};
+    };
+    return p;
+}
+
+template <class Field>
+Parameter flag(std::string key, std::string meaning, Field field) {
+    Parameter p{std::move(key), "true, false", std::move(meaning), {}, {}};
+    p.get = [field](const PipelineConfig& config) {
+        return ordered_json(field(config));
+    };
+    p.set = [field, p](PipelineConfig& config, const json& value) -> Result<void> {
+        if (!value.is_boolean()) return usageError(wrongValue(p, value), "permitted: true, false");
+        field(config) = value.get<bool>();
+        return {};
+    };
+    return p;
+}
+
+template <class Enum, class Field>
+Parameter choice(std::string key, std::vector<std::pair<std::string, Enum>> names, std::string meaning,
+                 Field field) {
+    Parameter p{std::move(key), {}, std::move(meaning), {}, {}};
+    for (const auto& [text, value] : names) p.range += (p.range.empty() ? "" : ", ") + text;
+    p.get = [field, names](const PipelineConfig& config) {
+        const auto found = std::find_if(names.begin(), names.end(),
+                                        [&](const auto& n) { return n.second == field(config); });
+        return ordered_json(found->first);
+    };
+    p.set = [field, names, p](PipelineConfig& config, const json& value) -> Result<void> {
+        const auto found = std::find_if(names.begin(), names.end(),
+                                        [&](const auto& n) { return value.is_string() && n.first == value; });
+        if (found == names.end()) return usageError(wrongValue(p, value), "permitted: " + p.range);
+        field(config) = found->second;
+        return {};
+    };
+    return p;
+}
+
+#define TERRAWALK_FIELD(path)   \
+    [](auto& config) -> auto& { \
+        return config.path;     \
+    }
+
+std::vector<Parameter> fusionParameters() {
+    return {
+        choice<FusionMethod>("fusion.method", {{"raw", FusionMethod::Raw}, {"ukf", FusionMethod::Ukf}},
+                             "raw: sensors as they are; ukf: 9-state unscented Kalman filter",
+                             TERRAWALK_FIELD(fusion.method)),
+        flag("fusion.smooth", "Rauch-Tung-Striebel pass after the filter", TERRAWALK_FIELD(fusion.smooth)),
+        number("fusion.stands.start_s", 0.2, 600, "still seconds at a start mark",
+               TERRAWALK_FIELD(fusion.stands.start_s)),
+        number("fusion.stands.target_s", 0.2, 600, "still seconds at a target mark",
+               TERRAWALK_FIELD(fusion.stands.target_s)),
+        number("fusion.unscented.alpha", 0.0001, 1, "spread of the sigma points",
+               TERRAWALK_FIELD(fusion.unscented.alpha)),
+        number("fusion.unscented.beta", 0, 10, "weight of the centre point, 2 for a Gaussian",
+               TERRAWALK_FIELD(fusion.unscented.beta)),
+        number("fusion.unscented.kappa", 0, 10, "secondary spread of the sigma points",
+               TERRAWALK_FIELD(fusion.unscented.kappa)),
+        number("fusion.process.noise.position_e_m2ps", 0, 1000, "process noise of the position, east, m2/s",
+               TERRAWALK_FIELD(fusion.process.noise.position_e_m2ps)),
+        number("fusion.process.noise.position_n_m2ps", 0, 1000, "process noise of the position, north, m2/s",
+               TERRAWALK_FIELD(fusion.process.noise.position_n_m2ps)),
+        number("fusion.process.noise.position_u_m2ps", 0, 1000, "process noise of the position, up, m2/s",
+               TERRAWALK_FIELD(fusion.process.noise.position_u_m2ps)),
+        number("fusion.process.noise.velocity_e_m2ps3", 0, 1000, "process noise of the velocity, east, m2/s3",
+               TERRAWALK_FIELD(fusion.process.noise.velocity_e_m2ps3)),
+        number("fusion.process.noise.velocity_n_m2ps3", 0, 1000,
+               "process noise of the velocity, north, m2/s3",
+               TERRAWALK_FIELD(fusion.process.noise.velocity_n_m2ps3)),
+        number("fusion.process.noise.velocity_u_m2ps3", 0, 1000, "process noise of the velocity, up, m2/s3",
+               TERRAWALK_FIELD(fusion.process.noise.velocity_u_m2ps3)),
+        number("fusion.process.noise.acceleration_e_m2ps5", 0, 1000,
+               "process noise of the acceleration, east, m2/s5",
+               TERRAWALK_FIELD(fusion.process.noise.acceleration_e_m2ps5)),
+        number("fusion.process.noise.acceleration_n_m2ps5", 0, 1000,
+               "process noise of the acceleration, north, m2/s5",
+               TERRAWALK_FIELD(fusion.process.noise.acceleration_n_m2ps5)),
+        number("fusion.process.noise.acceleration_u_m2ps5", 0, 1000,
+               "process noise of the acceleration, up, m2/s5",
+               TERRAWALK_FIELD(fusion.process.noise.acceleration_u_m2ps5)),
+        number("fusion.process.acceleration_time_constant_s", 0, 1000000.0,
+               "in which an acceleration dies away; 0: never",
+               TERRAWALK_FIELD(fusion.process.acceleration_time_constant_s)),
+        number("fusion.process.longest_step_s", 0.01, 10, "longer gaps are cut into steps of this length",
+               TERRAWALK_FIELD(fusion.process.longest_step_s)),
+        number("fusion.initial.velocity_sigma_mps", 0.001, 100, "of the velocity at the start",
+               TERRAWALK_FIELD(fusion.initial.velocity_sigma_mps)),
+        number("fusion.initial.acceleration_sigma_mps2", 0.001, 100, "of the acceleration at the start",
+               TERRAWALK_FIELD(fusion.initial.acceleration_sigma_mps2)),
+        number("fusion.initial.walking_speed_mps", 0, 100,
+               "by which a position ages while nothing measures it",
+               TERRAWALK_FIELD(fusion.initial.walking_speed_mps)),
+        number("fusion.initial.position_sigma_m", 0.001, 100000.0,
+               "around a known start mark, before the ties to it",
+               TERRAWALK_FIELD(fusion.initial.position_sigma_m)),
+        number("fusion.initial.still_speed_mps", 0, 10, "below this the array counts as standing still",
+               TERRAWALK_FIELD(fusion.initial.still_speed_mps)),
+        flag("fusion.gnss.use_position", "use GNSS positions", TERRAWALK_FIELD(fusion.gnss.use_position)),
+        flag("fusion.gnss.use_velocity", "use GNSS (Doppler) velocities",
+             TERRAWALK_FIELD(fusion.gnss.use_velocity)),
+        choice<GnssHeightUse>(
+            "fusion.gnss.use_height",
+            {{"never", GnssHeightUse::Never}, {"rtk", GnssHeightUse::Rtk}, {"always", GnssHeightUse::Always}},
+            "when the GNSS height is used; rtk: with an RTK fix, fixed or float",
+            TERRAWALK_FIELD(fusion.gnss.use_height)),
+        number("fusion.gnss.sigma_single_m", 0.0001, 1000, "position, single point, per horizontal axis",
+               TERRAWALK_FIELD(fusion.gnss.sigma_single_m)),
+        number("fusion.gnss.sigma_differential_m", 0.0001, 1000, "position, DGNSS, per horizontal axis",
+               TERRAWALK_FIELD(fusion.gnss.sigma_differential_m)),
+        number("fusion.gnss.sigma_float_m", 0.0001, 1000, "position, RTK float, per horizontal axis",
+               TERRAWALK_FIELD(fusion.gnss.sigma_float_m)),
+        number("fusion.gnss.sigma_fixed_m", 0.0001, 1000, "position, RTK fixed, per horizontal axis",
+               TERRAWALK_FIELD(fusion.gnss.sigma_fixed_m)),
+        number("fusion.gnss.sigma_single_up_m", 0.0001, 1000, "position, single point, height",
+               TERRAWALK_FIELD(fusion.gnss.sigma_single_up_m)),
+        number("fusion.gnss.sigma_differential_up_m", 0.0001, 1000, "position, DGNSS, height",
+               TERRAWALK_FIELD(fusion.gnss.sigma_differential_up_m)),
+        number("fusion.gnss.sigma_float_up_m", 0.0001, 1000, "position, RTK float, height",
+               TERRAWALK_FIELD(fusion.gnss.sigma_float_up_m)),
+        number("fusion.gnss.sigma_fixed_up_m", 0.0001, 1000, "position, RTK fixed, height",
+               TERRAWALK_FIELD(fusion.gnss.sigma_fixed_up_m)),
+        number("fusion.gnss.accuracy_floor_share", 0, 100,
+               "the receiver's own accuracy counts no less than this share of the sigmas above",
+               TERRAWALK_FIELD(fusion.gnss.accuracy_floor_share)),
+        number("fusion.gnss.correlation_s", 0, 100000.0,
+               "time in which a position error without RTK fix changes",
+               TERRAWALK_FIELD(fusion.gnss.correlation_s)),
+        number("fusion.gnss.correlation_fixed_s", 0, 100000.0, "the same with an RTK fix",
+               TERRAWALK_FIELD(fusion.gnss.correlation_fixed_s)),
+        number("fusion.gnss.velocity_sigma_mps", 0.0001, 100, "Doppler velocity, per horizontal axis",
+               TERRAWALK_FIELD(fusion.gnss.velocity_sigma_mps)),
+        number("fusion.gnss.velocity_sigma_up_mps", 0.0001, 100, "Doppler velocity, up",
+               TERRAWALK_FIELD(fusion.gnss.velocity_sigma_up_mps)),
+        number("fusion.gnss.velocity_correlation_s", 0, 100000.0, "time in which a velocity error changes",
+               TERRAWALK_FIELD(fusion.gnss.velocity_correlation_s)),
+        flag("fusion.barometer.use", "use the barometer", TERRAWALK_FIELD(fusion.barometer.use)),
+        number("fusion.barometer.scale", 0.1, 10,
+               "height per height of the standard atmosphere, from a fit at known marks",
+               TERRAWALK_FIELD(fusion.barometer.scale)),
+        number("fusion.barometer.sigma_m", 0.0001, 100, "white noise",
+               TERRAWALK_FIELD(fusion.barometer.sigma_m)),
+        number("fusion.barometer.gust_sigma_m", 0, 100, "error by gusts of wind",
+               TERRAWALK_FIELD(fusion.barometer.gust_sigma_m)),
+        number("fusion.barometer.gust_correlation_s", 0, 10000.0, "length of a gust",
+               TERRAWALK_FIELD(fusion.barometer.gust_correlation_s)),
+        number("fusion.barometer.drift_m_per_sqrt_min", 0, 100,
+               "drift since the barometer was zeroed, m per root of a minute",
+               TERRAWALK_FIELD(fusion.barometer.drift_m_per_sqrt_min)),
+        flag("fusion.flow.use", "use the optical flow", TERRAWALK_FIELD(fusion.flow.use)),
+        number("fusion.flow.variance_m2ps2", 1e-09, 100, "variance at rest, m2/s2",
+               TERRAWALK_FIELD(fusion.flow.variance_m2ps2)),
+        number("fusion.flow.variance_per_v2", 0, 10, "growth of the variance with the square of the speed",
+               TERRAWALK_FIELD(fusion.flow.variance_per_v2)),
+        number("fusion.flow.scale_sigma", 0, 1, "lasting error of scale, as a share of the speed",
+               TERRAWALK_FIELD(fusion.flow.scale_sigma)),
+        number("fusion.flow.smallest_quality", 0, 255, "flow_quality below this is rejected",
+               TERRAWALK_FIELD(fusion.flow.smallest_quality)),
+        flag("fusion.flow.bridge_dropouts", "let the recent mean flow stand in for missing readings",
+             TERRAWALK_FIELD(fusion.flow.bridge_dropouts)),
+        number("fusion.flow.bridge_after_s", 0, 10000.0, "after this time without a reading",
+               TERRAWALK_FIELD(fusion.flow.bridge_after_s)),
+        number("fusion.flow.bridge_sigma_mps", 0.001, 100, "of the mean that stands in",
+               TERRAWALK_FIELD(fusion.flow.bridge_sigma_mps)),
+        number("fusion.flow.bridge_memory_s", 0.1, 10000.0, "over which the mean is taken",
+               TERRAWALK_FIELD(fusion.flow.bridge_memory_s)),
+        flag("fusion.accelerometer.use", "use the accelerometer", TERRAWALK_FIELD(fusion.accelerometer.use)),
+        number("fusion.accelerometer.sigma_mps2", 0.0001, 100,
+               "of the specific force, steps of the walk included",
+               TERRAWALK_FIELD(fusion.accelerometer.sigma_mps2)),
+        flag("fusion.yaw_row.use", "use the course of the walk against the heading (paper, eq 4)",
+             TERRAWALK_FIELD(fusion.yaw_row.use)),
+        number("fusion.yaw_row.sigma_deg", 0.1, 180, "of heading less course",
+               TERRAWALK_FIELD(fusion.yaw_row.sigma_deg)),
+        number("fusion.yaw_row.slowest_mps", 0, 10, "slower than this the course is not used",
+               TERRAWALK_FIELD(fusion.yaw_row.slowest_mps)),
+        number("fusion.yaw_row.mount_offset_deg", -180, 180,
+               "yaw of the array less course, counter-clockwise",
+               TERRAWALK_FIELD(fusion.yaw_row.mount_offset_deg)),
+        number("fusion.attitude.sigma_tilt_deg", 0.001, 90, "roll and pitch",
+               TERRAWALK_FIELD(fusion.attitude.sigma_tilt_deg)),
+        number("fusion.attitude.sigma_heading_deg", 0.001, 180, "heading",
+               TERRAWALK_FIELD(fusion.attitude.sigma_heading_deg)),
+        number("fusion.attitude.sigma_tilt_held_deg", 0.001, 90,
+               "roll and pitch while the last known ones stand in",
+               TERRAWALK_FIELD(fusion.attitude.sigma_tilt_held_deg)),
+        number("fusion.attitude.sigma_heading_held_deg", 0.001, 180,
+               "heading while the last known one stands in",
+               TERRAWALK_FIELD(fusion.attitude.sigma_heading_held_deg)),
+        number("fusion.attitude.longest_hold_s", 0, 10000.0, "for how long a held heading rotates the flow",
+               TERRAWALK_FIELD(fusion.attitude.longest_hold_s)),
+        number("fusion.attitude.sigma_tilt_unknown_deg", 0.001, 90,
+               "roll and pitch where none was ever given",
+               TERRAWALK_FIELD(fusion.attitude.sigma_tilt_unknown_deg)),
+        number("fusion.ties.sigma_m", 0.0001, 100,
+               "how well the array stands over a mark, per horizontal axis",
+               TERRAWALK_FIELD(fusion.ties.sigma_m)),
+        number("fusion.ties.range_sigma_m", 0.0001, 100, "height of the array above a mark",
+               TERRAWALK_FIELD(fusion.ties.range_sigma_m)),
+        number("fusion.ties.correlation_s", 0, 10000.0, "of both",
+               TERRAWALK_FIELD(fusion.ties.correlation_s)),
+        number("fusion.ties.shortest_range_m", 0, 100, "shorter ranges on a mark are not believed",
+               TERRAWALK_FIELD(fusion.ties.shortest_range_m)),
+        number("fusion.ties.longest_range_m", 0, 1000, "longer ranges on a mark are not believed",
+               TERRAWALK_FIELD(fusion.ties.longest_range_m)),
+        number("fusion.ties.assumed_height_m", 0, 100,
+               "of the array above a mark where no range was measured",
+               TERRAWALK_FIELD(fusion.ties.assumed_height_m)),
+        number("fusion.ties.assumed_height_sigma_m", 0.001, 100, "of that height",
+               TERRAWALK_FIELD(fusion.ties.assumed_height_sigma_m)),
+        flag("fusion.robust.use", "down-weight and reject outliers", TERRAWALK_FIELD(fusion.robust.use)),
+        number("fusion.robust.huber_sigma", 0.1, 100, "from here on the weight falls",
+               TERRAWALK_FIELD(fusion.robust.huber_sigma)),
+        number("fusion.robust.gate_sigma", 0.5, 1000, "beyond this a reading is rejected",
+               TERRAWALK_FIELD(fusion.robust.gate_sigma)),
+        number("fusion.robust.readmit_after_s", 0.1, 100000.0,
+               "a sensor rejected for so long is believed again",
+               TERRAWALK_FIELD(fusion.robust.readmit_after_s)),
+        number("fusion.divergence.largest_sigma_m", 1, 1000000.0, "a larger sigma ends the run with an error",
+               TERRAWALK_FIELD(fusion.divergence.largest_sigma_m)),
+        number("fusion.divergence.largest_gnss_distance_m", 1, 1000000.0,
+               "a track farther from GNSS ends the run with an error",
+               TERRAWALK_FIELD(fusion.divergence.largest_gnss_distance_m)),
+        number("fusion.divergence.patience_s", 0, 1000000.0, "after this time",
+               TERRAWALK_FIELD(fusion.divergence.patience_s)),
+        number("fusion.divergence.rejected_share", 0, 1,
+               "a larger share of rejected GNSS positions ends the run with an error",
+               TERRAWALK_FIELD(fusion.divergence.rejected_share)),
+        number("fusion.divergence.rejected_window_s", 1, 1000000.0, "over which the share is taken",
+               TERRAWALK_FIELD(fusion.divergence.rejected_window_s)),
+    };
+}
+
+std::vector<Parameter> groundParameters() {
+    return {
+        number("ground.sigma_range_near_m", 0.0001, 10, "of the range finder at short range",
+               TERRAWALK_FIELD(ground.sigma_range_near_m)),
+        number("ground.sigma_range_far_share", 0, 1, "of the range finder beyond, as a share of the range",
+               TERRAWALK_FIELD(ground.sigma_range_far_share)),
+        number("ground.range_near_m", 0, 1000, "up to here a range counts as short",
+               TERRAWALK_FIELD(ground.range_near_m)),
+        number("ground.least_range_m", 0, 1000, "shorter ranges are a hand or a leaf",
+               TERRAWALK_FIELD(ground.least_range_m)),
+        number("ground.greatest_range_m", 0.1, 10000, "longer ranges are not believed",
+               TERRAWALK_FIELD(ground.greatest_range_m)),
+        number("ground.least_strength", 0, 65535, "weaker returns are not believed",
+               TERRAWALK_FIELD(ground.least_strength)),
+        number("ground.greatest_strength", 0, 65535, "stronger returns are not believed",
+               TERRAWALK_FIELD(ground.greatest_strength)),
+        angle("ground.greatest_tilt_deg", 0.1, 89, "between the ray and the vertical",
+              TERRAWALK_FIELD(ground.greatest_tilt_rad)),
+        number("ground.greatest_sigma_m", 0.001, 1e6, "points of a less sure position are left out",
+               TERRAWALK_FIELD(ground.greatest_sigma_m)),
+        number("ground.spike_sigma", 0, 1000,
+               "robust sigmas off the neighbours that make a spike; 0: no check",
+               TERRAWALK_FIELD(ground.spike_sigma)),
+        number("ground.spike_window_m", 0.01, 1000, "path on each side in which neighbours count",
+               TERRAWALK_FIELD(ground.spike_window_m)),
+        number("ground.spike_window_s", 0.01, 1000, "time on each side in which neighbours count",
+               TERRAWALK_FIELD(ground.spike_window_s)),
+        number("ground.spike_floor_m", 0.0001, 10, "least robust sigma of the neighbours",
+               TERRAWALK_FIELD(ground.spike_floor_m)),
+    };
+}
+
+std::vector<Parameter> surfaceParameters() {
+    return {
+        number("surface.thinning_cell_m", 0, 1000,
+               "one point stands for each cell of this size; 0: all points",
+               TERRAWALK_FIELD(surface.thinning_cell_m)),
+        flag("surface.fixed_point_runs", "use the ground points of fixed-point runs as well",
+             TERRAWALK_FIELD(surface.fixed_point_runs)),
+        number("surface.longest_edge_m", 0, 1e6,
+               "triangles with a longer edge are left out; 0: from the points",
+               TERRAWALK_FIELD(surface.tin.longest_edge_m)),
+        number("surface.cell_m", 0, 1e5, "cell size of the DEM; 0: from the density of the points",
+               TERRAWALK_FIELD(surface.cell_m)),
+        number("report.nearest_sample_limit_m", 0.01, 1e4,
+               "marks farther from any ground point are not compared with one",
+               TERRAWALK_FIELD(report.nearest_sample_limit_m)),
+        integer("seed", 0, std::numeric_limits<std::int64_t>::max(),
+                "of the confidence intervals in the report", TERRAWALK_FIELD(seed)),
+    };
+}
+
+const std::vector<Parameter>& parameters() {
+    static const std::vector<Parameter> kParameters = [] {
+        std::vector<Parameter> all = fusionParameters();
+        for (const auto& part : {groundParameters(), surfaceParameters()})
+            all.insert(all.end(), part.begin(), part.end());
+        return all;
+    }();
+    return kParameters;
+}
+
+#undef TERRAWALK_FIELD
+
+std::size_t editDistance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, substituted});
+        }
+    }
+    return row.back();
+}
+
+Result<const Parameter*> findParameter(std::string_view key) {
+    const auto& all = parameters();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.key == key; });
+    if (found != all.end()) return &*found;
+    const auto nearest =
+        std::min_element(all.begin(), all.end(), [&](const Parameter& a, const Parameter& b) {
+            return editDistance(a.key, key) < editDistance(b.key, key);
+        });
+    return usageError(fmt::format("unknown parameter '{}'", key.substr(0, 80)),
+                      fmt::format("did you mean {}? `terrawalk config describe` lists all", nearest->key));
+}
+
+std::string shortText(const ordered_json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+// {"fusion": {"gnss": {"x": 1}}} sets "fusion.gnss.x".
+Result<void> applyObject(PipelineConfig& config, const json& object, const std::string& prefix) {
+    for (const auto& [key, value] : object.items()) {
+        const std::string path = prefix.empty() ? key : prefix + "." + key;
+        // No key is longer than an assignment on a command line: what nests deeper is no configuration of
+        // ours.
+        if (value.is_object() && path.size() < 100) {
+            if (auto done = applyObject(config, value, path); !done) return done;
+            continue;
+        }
+        if (path == "format") {
+            if (value != "terrawalk-config 1") return usageError("format must be \"terrawalk-config 1\"");
+            continue;
+        }
+        const auto parameter = findParameter(path);
+        if (!parameter) return tl::unexpected(parameter.error());
+        if (auto done = (*parameter)->set(config, value); !done) return done;
+    }
+    return {};
+}
+
+}  // namespace
+
+std::vector<ParameterInfo> describeParameters() {
+    const PipelineConfig defaults;
+    std::vector<ParameterInfo> described;
+    for (const Parameter& p : parameters()) {
+        described.push_back({p.key, shortText(p.get(defaults)), p.range, p.meaning});
+    }
+    return described;
+}
+
+Result<void> applySetting(PipelineConfig& config, std::string_view assignment) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string_view::npos) {
+        return usageError(fmt::format("'{}' is no setting", assignment.substr(0, 80)), "write key=value");
+    }
+    const auto parameter = findParameter(assignment.substr(0, equals));
+    if (!parameter) return tl::unexpected(parameter.error());
+    const std::string text(assignment.substr(equals + 1));
+    // What is no JSON number or boolean is a word, such as the name of a method.
+    json value = json::parse(text, nullptr, false);
+    if (value.is_discarded()) value = text;
+    return (*parameter)->set(config, value);
+}
+
+Result<void> applyConfigFile(PipelineConfig& config, const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::error_code error;
+    if (!stream || !std::filesystem::is_regular_file(file, error)) {
+        return badData("cannot be read", file, 0, "check the path");
+    }
+    std::ostringstream bytes;
+    bytes << stream.rdbuf();
+    const std::string text = bytes.str();
+    json document;
+    try {
+        document = json::parse(text);
+    } catch (const json::parse_error& problem) {
+        const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(problem.byte, text.size()));
+        return badData("is not valid JSON", file,
+                       1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n')));
+    }
+    if (!document.is_object()) return badData("must hold one JSON object", file, 1);
+    if (auto done = applyObject(config, document, ""); !done) {
+        Error problem = done.error();
+        problem.kind = ErrorKind::BadData;
+        problem.file = file;
+        return tl::unexpected(problem);
+    }
+    return {};
+}
+
+std::string toJson(const PipelineConfig& config) {
+    ordered_json document{{"format", "terrawalk-config 1"}};
+    for (const Parameter& p : parameters()) {
+        std::string pointer = "/" + p.key;
+        std::replace(pointer.begin(), pointer.end(), '.', '/');
+        document[ordered_json::json_pointer(pointer)] = p.get(config);
+    }
+    return document.dump(2) + "\n";
+}
+
+std::vector<UsedSetting> settingsReport(const PipelineConfig& requested, const PipelineConfig& used) {
+    const PipelineConfig defaults;
+    std::vector<UsedSetting> settings;
+    for (const Parameter& p : parameters()) {
+        const std::string asked = shortText(p.get(requested));
+        settings.push_back(
+            {p.key, asked == shortText(p.get(defaults)) ? "default" : asked, shortText(p.get(used))});
+    }
+    return settings;
+}
+
+}  // namespace terrawalk

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fusion/fusion_options.hpp"
+#include "mapping/delaunay_tin.hpp"
+#include "mapping/ground_points.hpp"
+#include "survey/result.hpp"
+#include "survey/survey_report.hpp"
+
+namespace terrawalk {
+
+/// How the surface is made from the ground points.
+struct SurfaceOptions {
+    double thinning_cell_m = 0.5;  ///< one point stands for each cell of this size; 0: all points
+    bool fixed_point_runs = true;  ///< ground points of fixed-point runs count as well
+    TinOptions tin;
+    double cell_m = 0.0;  ///< of the DEM; 0: from the density of the points
+};
+
+struct ReportOptions {
+    double nearest_sample_limit_m = 3.0;  ///< a mark farther than this from any ground point is not compared
+};
+
+/// Everything that decides the result of a run of the pipeline; one value, the same for every front end.
+struct PipelineConfig {
+    FusionOptions fusion;
+    GroundPointOptions ground;
+    SurfaceOptions surface;
+    ReportOptions report;
+    std::uint64_t seed = 1;  ///< of the confidence intervals in the report
+};
+
+/// One parameter as text, for `terrawalk config describe`.
+struct ParameterInfo {
+    std::string key;  ///< e.g. "fusion.gnss.sigma_single_m"
+    std::string default_value;
+    std::string range;  ///< permitted values
+    std::string meaning;
+};
+[[nodiscard]] std::vector<ParameterInfo> describeParameters();
+
+/// Sets one parameter from text, "key=value". Errors: Usage for an unknown key (with the nearest known one),
+/// a value of another type or out of range.
+[[nodiscard]] Result<void> applySetting(PipelineConfig& config, std::string_view assignment);
+
+/// Overlays a JSON file on the configuration; keys that it lacks keep their value. Errors: BadData with file
+/// and, for broken JSON, line; unknown keys are refused.
+[[nodiscard]] Result<void> applyConfigFile(PipelineConfig& config, const std::filesystem::path& file);
+
+/// The whole configuration as JSON text, readable by `applyConfigFile`; exact for every value.
+[[nodiscard]] std::string toJson(const PipelineConfig& config);
+
+/// What was asked for beside what was used: `requested` differs where the pipeline had to choose a value.
+[[nodiscard]] std::vector<UsedSetting> settingsReport(const PipelineConfig& requested,
+                                                      const PipelineConfig& used);
+
+}  // namespace terrawalk

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "app/pipeline/config.hpp"
+#include "app/pipeline/inspect.hpp"
+#include "app/pipeline/process.hpp"
+#include "fusion/simulation.hpp"
+#include "survey/progress.hpp"
+#include "survey/result.hpp"
+
+namespace terrawalk {
+
+// Jobs from files to files: what a front end starts when its user presses a button. Each takes a Progress
+// over the whole job and returns `Cancelled` soon after a stop was requested; nothing half-written stays
+// behind.
+
+/// Reads the survey of a project file, or of the survey.json in a folder.
+[[nodiscard]] Result<Survey> openSurvey(const std::filesystem::path& project_file_or_folder,
+                                        Progress& progress, std::stop_token stop);
+
+/// Reads, processes, and writes the products into `output`. The returned products are those that were
+/// written.
+[[nodiscard]] Result<Products> processSurvey(const std::filesystem::path& project_file_or_folder,
+                                             const PipelineConfig& config, const Provenance& provenance,
+                                             const std::filesystem::path& output, Progress& progress,
+                                             std::stop_token stop);
+
+/// Writes a simulated survey with its truth: survey.json, control.csv, logs/, truth/ and manifest.json.
+[[nodiscard]] Result<void> simulateSurveyFolder(const SimulationOptions& options,
+                                                const std::filesystem::path& output, Progress& progress,
+                                                std::stop_token stop);
+
+/// Looks into a project file, a folder with one, or a single log.
+[[nodiscard]] Result<std::vector<LogSummary>> inspectFiles(const std::filesystem::path& path,
+                                                           Progress& progress, std::stop_token stop);
+
+}  // namespace terrawalk

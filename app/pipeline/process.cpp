@@ -1,0 +1,322 @@
+#include "app/pipeline/process.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <cmath>
+#include <set>
+
+#include "app/pipeline/inspect.hpp"
+#include "app/pipeline/relief.hpp"
+#include "app/pipeline/version.hpp"
+#include "fusion/fuse_run.hpp"
+#include "io/map_projection.hpp"
+#include "mapping/accuracy_statements.hpp"
+#include "mapping/gridding.hpp"
+#include "mapping/mark_residuals.hpp"
+#include "mapping/thinning.hpp"
+
+namespace terrawalk {
+
+namespace {
+
+/// One way from the logs to the ground: with fusion, or with the sensors as they are.
+struct GroundTrack {
+    std::vector<FusedRun> runs;
+    std::vector<GroundPoint> points;       ///< run by run
+    std::vector<std::size_t> first_point;  ///< of each run, and the end
+};
+
+Result<GroundTrack> trackGround(const Survey& survey, const FusionOptions& fusion,
+                                const GroundPointOptions& ground, Progress& progress,
+                                const std::stop_token& stop) {
+    const std::size_t n = survey.runs.size();
+    std::vector<Result<FusedRun>> fused(n, cancelled());
+    std::vector<std::vector<GroundPoint>> points(n);
+    std::atomic<std::size_t> done{0};
+    tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+        if (stop.stop_requested()) return;
+        const Run& run = survey.runs[i];
+        SilentProgress silent;
+        fused[i] = fuseRun(survey, run, fusion, silent, stop);
+        if (!fused[i]) return;
+        points[i] = groundPoints(run, static_cast<std::uint32_t>(i), fused[i]->trajectory, ground);
+        progress.report(static_cast<double>(++done) / static_cast<double>(n), "following run " + run.id);
+    });
+    if (stop.stop_requested()) return cancelled();
+    GroundTrack track;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!fused[i]) return tl::unexpected(fused[i].error());
+        track.runs.push_back(std::move(*fused[i]));
+        track.first_point.push_back(track.points.size());
+        track.points.insert(track.points.end(), points[i].begin(), points[i].end());
+    }
+    track.first_point.push_back(track.points.size());
+    return track;
+}
+
+/// Those of one run, from all points in the order of `track`.
+std::vector<GroundPoint> pointsOfRun(const std::vector<GroundPoint>& points, const GroundTrack& track,
+                                     std::size_t run) {
+    const auto at = [&](std::size_t i) {
+        return points.begin() + static_cast<std::ptrdiff_t>(i);
+    };
+    return {at(track.first_point[run]), at(track.first_point[run + 1])};
+}
+
+struct Comparison {
+    std::vector<Residual> residuals;
+    std::vector<MissingResidual> missing;
+    void add(MarkResiduals more) {
+        residuals.insert(residuals.end(), more.residuals.begin(), more.residuals.end());
+        missing.insert(missing.end(), more.missing.begin(), more.missing.end());
+    }
+};
+
+/// Positions on marks and nearest samples of one track.
+void compareTrack(const Survey& survey, const GroundTrack& track, const PipelineConfig& config, Stage stage,
+                  bool tied, Comparison& comparison) {
+    for (std::size_t i = 0; i < survey.runs.size(); ++i) {
+        const Run& run = survey.runs[i];
+        comparison.add(positionResiduals(run, markStands(survey, run, config.fusion.stands),
+                                         pointsOfRun(track.points, track, i), stage, tied));
+    }
+    const std::set<std::string> tied_marks =
+        tied ? tiedMarks(survey, config.fusion.stands) : std::set<std::string>{};
+    comparison.add(nearestSampleResiduals(survey, track.points, stage, tied_marks,
+                                          {.greatest_distance_m = config.report.nearest_sample_limit_m}));
+}
+
+/// The points that make the surface, in the map frame. Points of runs that are left out keep their state:
+/// they are good ground points all the same.
+Result<std::vector<Eigen::Vector3d>> surfacePoints(const Survey& survey,
+                                                   const std::vector<GroundPoint>& points,
+                                                   bool fixed_point_runs, const MapProjection& projection) {
+    std::vector<Eigen::Vector3d> chosen;
+    for (const GroundPoint& point : points) {
+        if (point.state != GroundPointState::Used) continue;
+        if (!fixed_point_runs && survey.runs[point.run].kind == RunKind::FixedPoint) continue;
+        chosen.push_back(point.enu_m);
+    }
+    return projection.toMap(chosen);
+}
+
+double distanceWalked(const Trajectory& trajectory) {
+    // Steps of a second, so that the noise of five positions a second does not lengthen the way.
+    double distance_m = 0.0;
+    std::size_t last = 0;
+    for (std::size_t i = 1; i < trajectory.epochs.size(); ++i) {
+        if (trajectory.epochs[i].time_s - trajectory.epochs[last].time_s < 1.0) continue;
+        distance_m +=
+            (trajectory.epochs[i].position_enu_m - trajectory.epochs[last].position_enu_m).head<2>().norm();
+        last = i;
+    }
+    return distance_m;
+}
+
+std::vector<Eigen::Vector3d> drawnTrack(const Trajectory& trajectory) {
+    constexpr std::size_t kGreatestVertices = 2000;
+    const std::size_t step = std::max<std::size_t>(1, trajectory.epochs.size() / kGreatestVertices);
+    std::vector<Eigen::Vector3d> track;
+    for (std::size_t i = 0; i < trajectory.epochs.size(); i += step) {
+        track.push_back(trajectory.epochs[i].position_enu_m);
+    }
+    return track;
+}
+
+RunReport reportRun(const Run& run, const FusedRun& fused, const std::vector<GroundPoint>& points) {
+    RunReport report;
+    report.id = run.id;
+    report.kind = run.kind;
+    report.rows_read = run.log.read_report.rows_read;
+    report.epochs = run.log.size();
+    report.repeated_lines = run.log.read_report.repeated_lines;
+    report.late_lines = run.log.read_report.late_lines;
+    report.cut_off_line = run.log.read_report.cut_off_line;
+    report.duration_s = run.log.time_s.back() - run.log.time_s.front();
+    report.distance_m = distanceWalked(fused.trajectory);
+    report.fixes = fixShares(run.log);
+    report.sensors = fused.sensors;
+    report.notes = run.log.read_report.notes;
+    for (const auto& notes : {fused.notes.limitations, fused.notes.details}) {
+        report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+    }
+    report.track_enu_m = drawnTrack(fused.trajectory);
+    std::array<std::size_t, kGroundPointStateCount> counts{};
+    for (const GroundPoint& point : points) ++counts[static_cast<std::size_t>(point.state)];
+    report.ground_points_used = counts[static_cast<std::size_t>(GroundPointState::Used)];
+    for (std::size_t state = 1; state < kGroundPointStateCount; ++state) {
+        if (counts[state] == 0) continue;
+        report.ground_points_rejected.push_back(
+            {std::string(name(static_cast<GroundPointState>(state))), counts[state]});
+    }
+    return report;
+}
+
+SurfaceReport reportSurface(const DelaunayTin& tin, const ElevationGrid& dem, const MapProjection& projection,
+                            std::size_t points) {
+    SurfaceReport report;
+    report.method = "Delaunay triangulation, linear interpolation at cell centres";
+    report.points = points;
+    report.triangles = tin.mesh().triangles.size();
+    report.longest_edge_m = tin.longestEdge_m();
+    report.area_m2 = tin.area_m2();
+    report.cell_m = dem.geometry.cell_m;
+    report.columns = dem.geometry.columns;
+    report.rows = dem.geometry.rows;
+    report.crs = projection.name();
+    report.vertical_datum = projection.heightReference();
+    for (const float height : dem.heights_m) {
+        if (std::isnan(height)) continue;
+        const double h = height;
+        report.lowest_m = report.cells_with_height == 0 ? h : std::min(report.lowest_m, h);
+        report.highest_m = report.cells_with_height == 0 ? h : std::max(report.highest_m, h);
+        ++report.cells_with_height;
+    }
+    return report;
+}
+
+/// What the runs had to do without, each once with the runs that it holds for.
+std::vector<std::string> sharedLimitations(const std::vector<FusedRun>& runs) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> notes;
+    for (const FusedRun& run : runs) {
+        for (const std::string& note : run.notes.limitations) {
+            auto found =
+                std::find_if(notes.begin(), notes.end(), [&](const auto& n) { return n.first == note; });
+            if (found == notes.end()) found = notes.insert(notes.end(), {note, {}});
+            found->second.push_back(run.trajectory.run_id);
+        }
+    }
+    std::vector<std::string> sentences;
+    for (const auto& [note, ids] : notes) {
+        const bool all = ids.size() == runs.size();
+        std::string sentence = all ? note : fmt::format("{} (runs {})", note, fmt::join(ids, ", "));
+        sentence.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence.front())));
+        sentences.push_back(sentence + ".");
+    }
+    return sentences;
+}
+
+/// Why there is not a single ground point, in the words of the most frequent reason.
+Error noGroundPoints(const Survey& survey, const std::vector<GroundPoint>& points) {
+    std::array<std::size_t, kGroundPointStateCount> counts{};
+    for (const GroundPoint& point : points) ++counts[static_cast<std::size_t>(point.state)];
+    const auto most = std::max_element(counts.begin() + 1, counts.end()) - counts.begin();
+    return badData(fmt::format("the survey gives too few ground points for a surface (most frequent reason: "
+                               "{}, {} of {} epochs)",
+                               name(static_cast<GroundPointState>(most)),
+                               counts[static_cast<std::size_t>(most)], points.size()),
+                   survey.project_file, 0, "check the range finder with `terrawalk inspect`")
+        .value();
+}
+
+}  // namespace
+
+Result<Products> process(const Survey& survey, const PipelineConfig& config, Progress& progress,
+                         std::stop_token stop) {
+    const auto projection = MapProjection::create(survey.frame(), survey.crs, survey.vertical_datum);
+    if (!projection) {
+        Error error = projection.error();
+        error.file = survey.project_file;
+        return tl::unexpected(error);
+    }
+
+    PartialProgress fusing(progress, 0.0, 0.5);
+    auto fused = trackGround(survey, config.fusion, config.ground, fusing, stop);
+    if (!fused) return tl::unexpected(fused.error());
+
+    const bool raw_only = config.fusion.method == FusionMethod::Raw;
+    Comparison comparison;
+    {
+        FusionOptions as_measured = config.fusion;
+        as_measured.method = FusionMethod::Raw;
+        PartialProgress following(progress, 0.5, 0.7);
+        const auto raw = trackGround(survey, as_measured, config.ground, following, stop);
+        if (!raw) return tl::unexpected(raw.error());
+        compareTrack(survey, *raw, config, Stage::BeforeFusion, false, comparison);
+    }
+    if (!raw_only) compareTrack(survey, *fused, config, Stage::Fused, true, comparison);
+
+    progress.report(0.7, "thinning ground points");
+    fused->points = thinGroundPoints(std::move(fused->points), config.surface.thinning_cell_m);
+    const auto points = surfacePoints(survey, fused->points, config.surface.fixed_point_runs, *projection);
+    if (!points) return tl::unexpected(points.error());
+    if (points->size() < 3) return tl::unexpected(noGroundPoints(survey, fused->points));
+
+    PartialProgress triangulating(progress, 0.72, 0.85);
+    const auto tin = DelaunayTin::build(*points, config.surface.tin, triangulating, stop);
+    if (!tin) {
+        Error error = tin.error();
+        if (error.kind == ErrorKind::BadData) error.file = survey.project_file;
+        return tl::unexpected(error);
+    }
+
+    Products products;
+    products.used = config;
+    products.used.surface.tin.longest_edge_m = tin->longestEdge_m();
+    if (config.surface.cell_m == 0.0) {
+        products.used.surface.cell_m = suggestCellSize(tin->area_m2(), tin->mesh().vertices_m.size());
+    }
+    const auto geometry = gridCovering(tin->mesh(), products.used.surface.cell_m);
+    if (!geometry) return tl::unexpected(geometry.error());
+    PartialProgress gridding(progress, 0.85, 1.0);
+    auto dem = rasterize(tin->mesh(), *geometry, gridding, stop);
+    if (!dem) return tl::unexpected(dem.error());
+    products.dem = std::move(*dem);
+
+    comparison.add(surfaceResiduals(
+        survey.marks,
+        [&](const ControlMark& mark) -> std::optional<double> {
+            const auto at = projection->toMap(mark.enu_m);
+            if (!at) return std::nullopt;
+            const auto height_m = tin->heightAt(at->x(), at->y());
+            if (!height_m) return std::nullopt;
+            return *height_m - at->z() + mark.enu_m.z();  // back from the map's height datum to the mark's
+        },
+        raw_only ? std::set<std::string>{} : tiedMarks(survey, config.fusion.stands)));
+
+    products.ground_points = std::move(fused->points);
+    SurveyReport& report = products.report;
+    report.survey_name = survey.name;
+    report.program_version = versionNumber();
+    report.seed = config.seed;
+    report.settings = settingsReport(config, products.used);
+    report.settings.push_back({"survey.crs", survey.crs.empty() ? "none" : survey.crs, projection->name()});
+    report.settings.push_back(
+        {"survey.vertical_datum", survey.vertical_datum, projection->heightReference()});
+    report.method = raw_only               ? "raw sensors, no fusion"
+                    : config.fusion.smooth ? "9-state unscented Kalman filter, Rauch-Tung-Striebel smoothed"
+                                           : "9-state unscented Kalman filter";
+    for (std::size_t i = 0; i < survey.runs.size(); ++i) {
+        report.runs.push_back(
+            reportRun(survey.runs[i], fused->runs[i], pointsOfRun(products.ground_points, *fused, i)));
+    }
+    report.surface = reportSurface(*tin, products.dem, *projection, points->size());
+    if (report.surface.cells_with_height == 0) {
+        return badData(
+            fmt::format("no cell of {:g} m has its centre on the surface", products.dem.geometry.cell_m),
+            survey.project_file, 0, "choose a smaller surface.cell_m");
+    }
+    report.marks = survey.marks;
+    report.residuals = std::move(comparison.residuals);
+    report.missing_residuals = std::move(comparison.missing);
+    auto relief = reliefPicture(*tin, *projection, products.ground_points);
+    if (!relief) return tl::unexpected(relief.error());
+    report.relief = std::move(*relief);
+    report.limitations = sharedLimitations(fused->runs);
+    report.warnings = survey.notes;
+    report.warnings.insert(report.warnings.end(), projection->warnings().begin(),
+                           projection->warnings().end());
+    report = withAccuracy(std::move(report));
+
+    products.surface = tin->mesh();
+    products.crs_wkt2 = projection->wkt2();
+    for (FusedRun& run : fused->runs) products.trajectories.push_back(std::move(run.trajectory));
+    progress.report(1.0, "processed");
+    return products;
+}
+
+}  // namespace terrawalk

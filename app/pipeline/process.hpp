@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "app/pipeline/config.hpp"
+#include "io/output_folder.hpp"
+#include "survey/elevation_grid.hpp"
+#include "survey/ground_point.hpp"
+#include "survey/progress.hpp"
+#include "survey/result.hpp"
+#include "survey/survey.hpp"
+#include "survey/survey_report.hpp"
+#include "survey/trajectory.hpp"
+#include "survey/triangle_mesh.hpp"
+
+namespace terrawalk {
+
+/// Everything that one run of the pipeline makes, in memory.
+struct Products {
+    std::vector<Trajectory> trajectories;    ///< one for each run of the survey, in its order
+    std::vector<GroundPoint> ground_points;  ///< of all runs, run by run; local ENU
+    TriangleMesh surface;                    ///< map frame
+    ElevationGrid dem;                       ///< map frame
+    std::string crs_wkt2;
+    SurveyReport report;
+    PipelineConfig used;  ///< the configuration with every choice that the pipeline made filled in
+};
+
+/// The whole job, from a survey to its products; both programs call this and nothing else. Works on as many
+/// threads as TBB allows; the result does not depend on their number. Errors: BadData, Cancelled.
+[[nodiscard]] Result<Products> process(const Survey& survey, const PipelineConfig& config, Progress& progress,
+                                       std::stop_token stop);
+
+/// How the run was started, for the manifest.
+struct Provenance {
+    std::vector<std::string> command;  ///< arguments that decide the result, program name first
+};
+
+/// Writes dem.tif, surface.ply, surface.obj, trajectory/*.csv, ground_points.csv, residuals.csv, report.json,
+/// report.html, figures.txt and manifest.json. The caller commits the folder.
+[[nodiscard]] Result<void> writeProducts(const Survey& survey, const Products& products,
+                                         const Provenance& provenance, OutputFolder& folder,
+                                         Progress& progress, std::stop_token stop);
+
+/// The few lines that a person reads first: the files that matter and how good the surface is.
+[[nodiscard]] std::string summaryText(const Products& products);
+
+}  // namespace terrawalk

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "io/map_projection.hpp"
+#include "mapping/delaunay_tin.hpp"
+#include "survey/ground_point.hpp"
+#include "survey/relief_image.hpp"
+#include "survey/result.hpp"
+
+namespace terrawalk {
+
+/// The surface as a shaded picture in the local frame, for the map of the report: some 800 pixels on its
+/// longer side.
+[[nodiscard]] Result<ReliefPicture> reliefPicture(const DelaunayTin& tin, const MapProjection& projection,
+                                                  const std::vector<GroundPoint>& ground_points);
+
+}  // namespace terrawalk

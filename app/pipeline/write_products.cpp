@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "app/pipeline/process.hpp"
+#include "app/pipeline/version.hpp"
+#include "io/write_products.hpp"
+
+namespace terrawalk {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+Result<InputFile> describeInput(const fs::path& file, const fs::path& folder) {
+    auto digest = sha256OfFile(file);
+    if (!digest) return tl::unexpected(digest.error());
+    std::error_code error;
+    const auto bytes = fs::file_size(file, error);
+    if (error) return systemError(error.message(), file);
+    return InputFile{file.lexically_relative(folder).generic_string(), bytes, std::move(*digest)};
+}
+
+Result<std::vector<InputFile>> describeInputs(const Survey& survey) {
+    std::vector<fs::path> files{survey.project_file};
+    if (!survey.control_file.empty()) files.push_back(survey.control_file);
+    for (const Run& run : survey.runs) files.push_back(run.log.file);
+    std::vector<InputFile> inputs;
+    for (const fs::path& file : files) {
+        auto input = describeInput(file, survey.project_file.parent_path());
+        if (!input) return tl::unexpected(input.error());
+        // Two runs may share a log.
+        if (std::none_of(inputs.begin(), inputs.end(),
+                         [&](const InputFile& i) { return i.path == input->path; })) {
+            inputs.push_back(std::move(*input));
+        }
+    }
+    return inputs;
+}
+
+std::string manifestText(const Products& products, const SurveyReport& report, const Provenance& provenance,
+                         const std::vector<std::string>& files) {
+    ordered_json manifest{{"format", "terrawalk-output 1"},
+                          {"program", programVersion()},
+                          {"libraries", ordered_json::object()},
+                          {"command", provenance.command},
+                          {"seed", report.seed},
+                          {"survey", report.survey_name},
+                          {"inputs", ordered_json::array()},
+                          {"products", files},
+                          {"configuration", ordered_json::parse(toJson(products.used))}};
+    for (const auto& [library, version] : libraryVersions()) manifest["libraries"][library] = version;
+    for (const InputFile& input : report.inputs) {
+        manifest["inputs"].push_back(
+            {{"path", input.path}, {"bytes", input.bytes}, {"sha256", input.sha256}});
+    }
+    return manifest.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+DemDescription describeDem(const Products& products, const Survey& survey) {
+    return {.crs_wkt2 = products.crs_wkt2,
+            .vertical_datum = survey.vertical_datum,
+            .title = survey.name,
+            .software = programVersion(),
+            .metadata = {{"METHOD", products.report.surface.method},
+                         {"FUSION", products.report.method},
+                         {"HEIGHTS", products.report.surface.vertical_datum}}};
+}
+
+}  // namespace
+
+Result<void> writeProducts(const Survey& survey, const Products& products, const Provenance& provenance,
+                           OutputFolder& folder, Progress& progress, std::stop_token stop) {
+    SurveyReport report = products.report;
+    progress.report(0.0, "hashing the inputs");
+    auto inputs = describeInputs(survey);
+    if (!inputs) return tl::unexpected(inputs.error());
+    report.inputs = std::move(*inputs);
+
+    std::vector<std::string> files;
+    using Writer = std::function<Result<void>(const fs::path&)>;
+    std::vector<std::pair<std::string, Writer>> writers{
+        {"dem.tif",
+         [&](const fs::path& f) {
+             return writeDem(products.dem, describeDem(products, survey), f, stop);
+         }},
+        {"surface.ply",
+         [&](const fs::path& f) {
+             return writePly(products.surface, report.surface.crs, f);
+         }},
+        {"surface.obj",
+         [&](const fs::path& f) {
+             return writeObj(products.surface, report.surface.crs, f);
+         }},
+        {"ground_points.csv",
+         [&](const fs::path& f) {
+             std::vector<std::string> ids;
+             for (const Run& run : survey.runs) ids.push_back(run.id);
+             return writeGroundPointsCsv(products.ground_points, ids, f);
+         }},
+        {"residuals.csv",
+         [&](const fs::path& f) {
+             return writeResidualsCsv(report.residuals, f);
+         }},
+        {"report.json",
+         [&](const fs::path& f) {
+             return writeReportJson(report, f);
+         }},
+        {"report.html",
+         [&](const fs::path& f) {
+             return writeReportHtml(report, f);
+         }},
+        {"figures.txt",
+         [&](const fs::path& f) {
+             return writeTextFile(summaryText(products), f);
+         }},
+    };
+    for (const Trajectory& trajectory : products.trajectories) {
+        writers.emplace_back("trajectory/" + trajectory.run_id + ".csv",
+                             [&](const fs::path& f) { return writeTrajectoryCsv(trajectory, f); });
+    }
+    for (const auto& writer : writers) files.push_back(writer.first);
+    files.emplace_back("manifest.json");
+    writers.emplace_back("manifest.json", [&](const fs::path& f) {
+        return writeTextFile(manifestText(products, report, provenance, files), f);
+    });
+
+    for (std::size_t i = 0; i < writers.size(); ++i) {
+        if (stop.stop_requested()) return cancelled();
+        const auto& [name, write] = writers[i];
+        progress.report(0.1 + 0.9 * static_cast<double>(i) / static_cast<double>(writers.size()),
+                        "writing " + name);
+        const auto path = folder.pathFor(name);
+        if (!path) return tl::unexpected(path.error());
+        if (auto written = write(*path); !written) return written;
+    }
+    return {};
+}
+
+std::string summaryText(const Products& products) {
+    const SurfaceReport& surface = products.report.surface;
+    std::string text = products.report.survey_name + "\n";
+    text += fmt::format("  DEM      dem.tif       {} x {} cells of {:g} m, {}\n", surface.columns,
+                        surface.rows, surface.cell_m, surface.crs);
+    text += fmt::format("  mesh     surface.ply   {} points, {} triangles\n",
+                        products.surface.vertices_m.size(), surface.triangles);
+    text += "  report   report.html\n";
+    for (const KeyFigure& figure : products.report.figures) {
+        text += fmt::format("  {}: {}{}{}{}\n", figure.label, figure.value, figure.detail.empty() ? "" : " (",
+                            figure.detail, figure.detail.empty() ? "" : ")");
+    }
+    return text;
+}
+
+}  // namespace terrawalk

@@ -1,0 +1,321 @@
+#include "fusion/fuse_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "fusion/raw_trajectory.hpp"
+#include "fusion/rts_smoother.hpp"
+#include "fusion/run_reference.hpp"
+#include "fusion/sensor_ledger.hpp"
+#include "fusion/sensor_readings.hpp"
+
+namespace terrawalk {
+
+namespace {
+
+constexpr double kAssumedHeightSigma_m = 10.0;  // where nothing measures height
+
+double squared(double x) {
+    return x * x;
+}
+
+// A sensor that sees what the filter sums up over time can be right against a filter that went astray.
+// Velocity and acceleration are forgotten within seconds, so a long rejection of those is the sensor's own
+// fault.
+bool mayBeReadmitted(Sensor sensor) {
+    return sensor == Sensor::GnssPosition || sensor == Sensor::GnssHeight || sensor == Sensor::Barometer;
+}
+
+// The worst |innovation| / sigma of a reading's rows.
+double worstDeviation(const StateEstimate& state, const Reading& reading) {
+    double worst = 0.0;
+    for (std::size_t r = 0; r < reading.row_count; ++r) {
+        const LinearRow& row = reading.rows[r].row;
+        const double sigma = std::sqrt(predictedVariance(state, row) + reading.rows[r].gate_variance);
+        worst = std::max(worst, std::abs(innovation(state, row)) / sigma);
+    }
+    return worst;
+}
+
+// Takes one run through the filter, epoch by epoch.
+class RunFilter {
+  public:
+    RunFilter(const ReadingContext& context, const Run& run) : context_(context), run_(run) {
+        const RunReference& reference = context.reference;
+        const InitialOptions& initial = context.options.initial;
+        state_.covariance.setZero();
+        state_.mean.segment<3>(offset(StateBlock::Position)) = reference.start_enu_m;
+        state_.covariance.diagonal().segment<3>(offset(StateBlock::Position)) =
+            reference.start_sigma_m.array().square();
+        state_.covariance.diagonal()
+            .segment<3>(offset(StateBlock::Velocity))
+            .setConstant(squared(initial.velocity_sigma_mps));
+        state_.covariance.diagonal()
+            .segment<3>(offset(StateBlock::Acceleration))
+            .setConstant(squared(initial.acceleration_sigma_mps2));
+        rejected_since_s_.fill(std::numeric_limits<double>::quiet_NaN());
+    }
+
+    const StateEstimate& state() const { return state_; }
+    const std::vector<Inflation>& inflations() const { return inflations_; }
+    std::vector<SensorUse> sensors() const { return ledger_.uses(); }
+
+    /// Nothing, or why the run must be given up.
+    std::optional<Error> step(std::size_t epoch) {
+        if (epoch > 0) {
+            const double dt_s = context_.log.time_s[epoch] - context_.log.time_s[epoch - 1];
+            state_ = predicted(state_, transition(context_.options.process, dt_s));
+        }
+        readEpoch(context_, epoch, state_, memory_, readings_);
+        readmit(epoch);
+        applyTies(epoch);
+        for (const Reading& reading : readings_) applyReading(epoch, reading);
+        if (!context_.reference.has_height) holdHeight();
+        return divergence(epoch);
+    }
+
+  private:
+    double time(std::size_t epoch) const { return context_.log.time_s[epoch]; }
+    double& rejectedSince(Sensor sensor) { return rejected_since_s_[static_cast<std::size_t>(sensor)]; }
+
+    void applyTies(std::size_t epoch) {
+        const std::vector<MarkTie>& ties = context_.reference.ties;
+        for (; next_tie_ < ties.size() && ties[next_tie_].epoch == epoch; ++next_tie_) {
+            const MarkTie& tie = ties[next_tie_];
+            for (int axis = 0; axis < (tie.has_height ? 3 : 2); ++axis) {
+                state_ = updated(state_, {StateBlock::Position, Eigen::Vector3d::Unit(axis),
+                                          tie.array_enu_m[axis], tie.variance_m2[axis]});
+            }
+            ledger_.use(Sensor::MarkTie, false);
+        }
+    }
+
+    // Lets a sensor in again that was rejected for so long that the filter must be wrong: the filter's own
+    // variance grows by the square of what it is off.
+    void readmit(std::size_t epoch) {
+        const RobustOptions& robust = context_.options.robust;
+        if (!robust.use) return;
+        for (const Reading& reading : readings_) {
+            const double since_s = rejectedSince(reading.sensor);
+            if (!mayBeReadmitted(reading.sensor) || reading.row_count == 0) continue;
+            if (!(time(epoch) - since_s >= robust.readmit_after_s)) continue;
+            Inflation inflation{epoch, reading.rows[0].row.block, Eigen::Vector3d::Zero()};
+            for (std::size_t r = 0; r < reading.row_count; ++r) {
+                const LinearRow& row = reading.rows[r].row;
+                inflation.variance +=
+                    squared(innovation(state_, row)) * row.direction.array().square().matrix();
+            }
+            const int at = offset(inflation.block);
+            state_.covariance.block<3, 3>(at, at).diagonal() += inflation.variance;
+            inflations_.push_back(inflation);
+            // What was believed of the sensor before says nothing of its error now.
+            memory_.lastUsed(reading.sensor) = -std::numeric_limits<double>::infinity();
+        }
+    }
+
+    void applyReading(std::size_t epoch, const Reading& reading) {
+        if (!reading.rejection.empty()) {
+            ledger_.reject(reading.sensor, reading.rejection);
+            return;
+        }
+        const RobustOptions& robust = context_.options.robust;
+        const double deviation = robust.use ? worstDeviation(state_, reading) : 0.0;
+        const bool outside = deviation > robust.gate_sigma;
+        if (reading.sensor == Sensor::GnssPosition) watchGnss(epoch, reading, outside);
+        if (outside) {
+            ledger_.reject(reading.sensor, "beyond gate");
+            if (std::isnan(rejectedSince(reading.sensor))) rejectedSince(reading.sensor) = time(epoch);
+            return;
+        }
+        bool down_weighted = false;
+        for (std::size_t r = 0; r < reading.row_count; ++r) {
+            LinearRow row = reading.rows[r].row;
+            if (robust.use) {
+                const double sigma =
+                    std::sqrt(predictedVariance(state_, row) + reading.rows[r].gate_variance);
+                const double excess = std::abs(innovation(state_, row)) / (sigma * robust.huber_sigma);
+                if (excess > 1.0) {
+                    row.variance *= excess;
+                    down_weighted = true;
+                }
+            }
+            state_ = updated(state_, row);
+        }
+        ledger_.use(reading.sensor, down_weighted);
+        rejectedSince(reading.sensor) = std::numeric_limits<double>::quiet_NaN();
+        remember(epoch, reading);
+    }
+
+    void remember(std::size_t epoch, const Reading& reading) {
+        const double since_s = time(epoch) - memory_.lastUsed(reading.sensor);
+        memory_.lastUsed(reading.sensor) = time(epoch);
+        if (reading.sensor != Sensor::OpticalFlow) return;
+        const Eigen::Vector2d flow_mps(context_.log.value(Channel::FlowForward, epoch),
+                                       context_.log.value(Channel::FlowLeft, epoch));
+        const double weight = -std::expm1(-since_s / context_.options.flow.bridge_memory_s);
+        memory_.mean_flow_mps += weight * (flow_mps - memory_.mean_flow_mps);
+    }
+
+    void holdHeight() {
+        state_ = updated(state_, {StateBlock::Position, Eigen::Vector3d::UnitZ(),
+                                  context_.reference.start_enu_m.z(), squared(kAssumedHeightSigma_m)});
+        ledger_.use(Sensor::HeightAssumption, false);
+    }
+
+    void watchGnss(std::size_t epoch, const Reading& reading, bool outside) {
+        const DivergenceOptions& limits = context_.options.divergence;
+        const Eigen::Vector2d apart(innovation(state_, reading.rows[0].row),
+                                    innovation(state_, reading.rows[1].row));
+        if (apart.norm() <= limits.largest_gnss_distance_m) {
+            far_since_s_ = std::numeric_limits<double>::quiet_NaN();
+        } else if (std::isnan(far_since_s_)) {
+            far_since_s_ = time(epoch);
+        }
+        const double interval_s = std::isnan(gnss_seen_s_) ? 0.0 : time(epoch) - gnss_seen_s_;
+        gnss_seen_s_ = time(epoch);
+        const double weight = -std::expm1(-interval_s / limits.rejected_window_s);
+        rejected_share_ += weight * ((outside ? 1.0 : 0.0) - rejected_share_);
+    }
+
+    std::optional<Error> divergence(std::size_t epoch) const {
+        const DivergenceOptions& limits = context_.options.divergence;
+        if (!state_.finite()) return diverged(epoch, "the state is no longer finite");
+        const double sigma_m = std::sqrt(state_.blockCovariance(StateBlock::Position).diagonal().maxCoeff());
+        if (!(sigma_m <= limits.largest_sigma_m)) {
+            return diverged(epoch, fmt::format("the position is known to no better than {:.0f} m", sigma_m));
+        }
+        if (time(epoch) - far_since_s_ >= limits.patience_s) {
+            return diverged(epoch, fmt::format("the track is more than {:.0f} m from GNSS for {:.0f} s",
+                                               limits.largest_gnss_distance_m, limits.patience_s));
+        }
+        if (rejected_share_ > limits.rejected_share) {
+            return diverged(
+                epoch, fmt::format("{:.0f} % of the GNSS positions of the last {:.0f} s are beyond the gate",
+                                   100.0 * rejected_share_, limits.rejected_window_s));
+        }
+        return std::nullopt;
+    }
+
+    Error diverged(std::size_t epoch, const std::string& why) const {
+        return {ErrorKind::BadData,
+                fmt::format("run {}: the filter diverged at {:.2f} s: {}", run_.id, time(epoch), why),
+                run_.log.file, 0,
+                "look at the sensors of this run with 'inspect', or leave out the one that contradicts the "
+                "others"};
+    }
+
+    const ReadingContext& context_;
+    const Run& run_;
+    StateEstimate state_;
+    SensorMemory memory_;
+    SensorLedger ledger_;
+    std::vector<Reading> readings_;
+    std::vector<Inflation> inflations_;
+    std::array<double, kSensorCount> rejected_since_s_{};
+    std::size_t next_tie_ = 0;
+    double far_since_s_ = std::numeric_limits<double>::quiet_NaN();
+    double gnss_seen_s_ = std::numeric_limits<double>::quiet_NaN();
+    double rejected_share_ = 0.0;
+};
+
+TrajectoryEpoch trajectoryEpoch(const StateEstimate& state, double time_s, const EpochAttitude& attitude) {
+    constexpr int p = offset(StateBlock::Position);
+    constexpr int v = offset(StateBlock::Velocity);
+    TrajectoryEpoch epoch;
+    epoch.time_s = time_s;
+    epoch.position_enu_m = state.block(StateBlock::Position);
+    epoch.velocity_enu_mps = state.block(StateBlock::Velocity);
+    epoch.covariance.topLeftCorner<3, 3>() = state.covariance.block<3, 3>(p, p);
+    epoch.covariance.topRightCorner<3, 3>() = state.covariance.block<3, 3>(p, v);
+    epoch.covariance.bottomLeftCorner<3, 3>() = state.covariance.block<3, 3>(v, p);
+    epoch.covariance.bottomRightCorner<3, 3>() = state.covariance.block<3, 3>(v, v);
+    epoch.attitude = attitude.attitude;
+    epoch.sigma_tilt_rad = attitude.sigma_tilt_rad;
+    epoch.sigma_heading_rad = attitude.sigma_heading_rad;
+    return epoch;
+}
+
+void noteSensors(const std::vector<SensorUse>& sensors, const std::vector<Inflation>& inflations,
+                 std::vector<std::string>& notes) {
+    for (const SensorUse& use : sensors) {
+        if (2 * use.used < use.offered) {
+            notes.push_back(
+                fmt::format("{}: only {} of {} readings were used", use.sensor, use.used, use.offered));
+        }
+    }
+    if (!inflations.empty()) {
+        notes.push_back(
+            fmt::format("a sensor that had been rejected for long was let in again {} times; the track may "
+                        "be off before that",
+                        inflations.size()));
+    }
+}
+
+Result<FusedRun> filteredRun(const Survey& survey, const Run& run, const FusionOptions& options,
+                             const std::vector<EpochAttitude>& attitudes, const RunReference& reference,
+                             Progress& progress, std::stop_token stop) {
+    const LocalFrame frame = survey.frame();
+    const ReadingContext context{run.log, options, frame, attitudes, reference};
+    RunFilter filter(context, run);
+    const std::size_t n = run.log.size();
+    std::vector<PackedEstimate> estimates;
+    estimates.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        if (i % 512 == 0) {
+            if (stop.stop_requested()) return cancelled();
+            progress.report(0.7 * static_cast<double>(i) / static_cast<double>(n), "fusing " + run.id);
+        }
+        if (auto error = filter.step(i)) return tl::unexpected<Error>(std::move(*error));
+        estimates.push_back(packed(filter.state()));
+    }
+    if (options.smooth) {
+        progress.report(0.7, "smoothing " + run.id);
+        estimates =
+            smoothed(std::move(estimates), run.log.time_s, options.process, filter.inflations(), stop);
+        if (stop.stop_requested()) return cancelled();
+    }
+    FusedRun fused;
+    fused.trajectory.run_id = run.id;
+    fused.trajectory.epochs.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const StateEstimate state = unpacked(estimates[i]);
+        if (!state.finite()) {
+            return badData(fmt::format("run {}: the smoother failed at {:.2f} s", run.id, run.log.time_s[i]),
+                           run.log.file);
+        }
+        fused.trajectory.epochs.push_back(trajectoryEpoch(state, run.log.time_s[i], attitudes[i]));
+    }
+    fused.sensors = filter.sensors();
+    noteSensors(fused.sensors, filter.inflations(), fused.notes.details);
+    return fused;
+}
+
+}  // namespace
+
+Result<FusedRun> fuseRun(const Survey& survey, const Run& run, const FusionOptions& options,
+                         Progress& progress, std::stop_token stop) {
+    if (run.log.size() == 0)
+        return badData(fmt::format("run {}: the log has no epochs", run.id), run.log.file);
+    RunNotes notes;
+    const std::vector<EpochAttitude> attitudes = epochAttitudes(run.log, options.attitude, notes);
+    const auto reference = runReference(survey, run, options, attitudes, notes);
+    if (!reference) return tl::unexpected<Error>(reference.error());
+    auto fused = options.method == FusionMethod::Raw
+                     ? rawTrajectory(survey, run, options, attitudes, *reference, progress, stop)
+                     : filteredRun(survey, run, options, attitudes, *reference, progress, stop);
+    if (!fused) return fused;
+    notes.details.insert(notes.details.end(), fused->notes.details.begin(), fused->notes.details.end());
+    notes.limitations.insert(notes.limitations.end(), fused->notes.limitations.begin(),
+                             fused->notes.limitations.end());
+    fused->notes = std::move(notes);
+    progress.report(1.0, "fused " + run.id);
+    return fused;
+}
+
+}  // namespace terrawalk

@@ -1,0 +1,149 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fusion/fusion_options.hpp"
+#include "fusion/unscented_kalman_filter.hpp"
+#include "survey/survey.hpp"
+#include "survey/trajectory.hpp"
+
+namespace terrawalk {
+
+/// What gives the filter its rows, in the order in which an epoch's readings are applied.
+enum class Sensor : std::uint8_t {
+    Heading,
+    MarkTie,
+    GnssPosition,
+    GnssHeight,
+    GnssVelocity,
+    Barometer,
+    OpticalFlow,
+    MeanFlow,  ///< recent mean of the flow, in place of a reading that dropped out
+    Accelerometer,
+    HeightAssumption,
+};
+inline constexpr std::size_t kSensorCount = 10;
+[[nodiscard]] std::string_view name(Sensor sensor);
+
+/// Attitude of one epoch, and whether a sensor stands behind it.
+struct EpochAttitude {
+    Attitude attitude;
+    double sigma_tilt_rad = 0.0;
+    double sigma_heading_rad = 0.0;
+    bool tilt_known = false;
+    bool heading_known = false;
+};
+
+/// Attitude for each epoch. What is missing is held from the last epoch that had it; before the first one the
+/// array is taken to be level and its heading to be unknown (sigma of a uniform angle). Held values carry
+/// their own, larger sigma. Adds a note for each of these.
+[[nodiscard]] std::vector<EpochAttitude> epochAttitudes(const ArrayLog& log, const AttitudeOptions& options,
+                                                        RunNotes& notes);
+
+/// What a GNSS epoch is worth. `rejection` is empty when it may be used.
+struct GnssQuality {
+    std::string_view rejection;
+    double sigma_m = 0.0;  ///< per horizontal axis
+    double sigma_up_m = 0.0;
+    bool rtk = false;
+    double correlation_s = 0.0;
+};
+[[nodiscard]] GnssQuality gnssQuality(const ArrayLog& log, std::size_t epoch, const GnssOptions& options);
+
+/// Origin of the array in local ENU as GNSS has it, antenna lever arm removed; nothing without latitude and
+/// longitude. Without an ellipsoidal height, e and n are computed at `assumed_up_m` above the zero point, and
+/// up is missing.
+[[nodiscard]] std::optional<Eigen::Vector3d> gnssPosition(const ArrayLog& log, std::size_t epoch,
+                                                          const LocalFrame& frame, const Attitude& attitude,
+                                                          double assumed_up_m);
+
+/// Height of the array's origin above the ground it measures, from range, tilt and lever arm; missing without
+/// a range between the limits of `options` (finders report a far range where nothing came back).
+[[nodiscard]] double heightAboveGround(const ArrayLog& log, std::size_t epoch, const Attitude& attitude,
+                                       const TieOptions& options);
+
+/// One row of a reading. `variance` is what the filter may believe, errors of long memory counted as such;
+/// `gate_variance` is the sensor's own, by which outliers are judged.
+struct ReadingRow {
+    LinearRow row;
+    double gate_variance = 0.0;
+};
+
+/// What one sensor says in one epoch: up to three rows, or why none can be made.
+struct Reading {
+    Sensor sensor;
+    std::array<ReadingRow, 3> rows;
+    std::size_t row_count = 0;
+    std::string_view rejection;  ///< empty when there are rows
+
+    explicit Reading(Sensor s, std::string_view why_rejected = {}) : sensor(s), rejection(why_rejected) {}
+    void add(StateBlock block, const Eigen::Vector3d& direction, double value, double variance,
+             double gate_variance) {
+        rows[row_count++] = {{block, direction, value, variance}, gate_variance};
+    }
+};
+
+/// A tie of one epoch to a mark: where the array's origin must have been.
+struct MarkTie {
+    std::size_t epoch = 0;
+    Eigen::Vector3d array_enu_m = Eigen::Vector3d::Zero();
+    Eigen::Vector3d variance_m2 = Eigen::Vector3d::Ones();
+    bool has_height = true;
+};
+
+/// What a run is measured against; made once for each run by runReference().
+struct RunReference {
+    Eigen::Vector3d start_enu_m = Eigen::Vector3d::Zero();
+    Eigen::Vector3d start_sigma_m = Eigen::Vector3d::Ones();
+    bool starts_on_mark = false;
+    std::vector<MarkTie> ties;  ///< in order of epochs
+    std::optional<double>
+        barometer_zero_m;  ///< barometric height at which up is 0; nothing without a barometer
+    double barometer_zero_time_s = 0.0;
+    GnssHeightUse gnss_height = GnssHeightUse::Rtk;  ///< what is done, which may be more than was asked for
+    bool has_horizontal = false;                     ///< anything but ties that tells e and n
+    bool has_height = false;                         ///< barometer or GNSS height
+};
+
+/// What the filter remembers between epochs to weigh the next readings.
+struct SensorMemory {
+    std::array<double, kSensorCount> last_used_s = [] {
+        std::array<double, kSensorCount> never{};
+        never.fill(-std::numeric_limits<double>::infinity());
+        return never;
+    }();
+    Eigen::Vector2d mean_flow_mps = Eigen::Vector2d::Zero();  ///< forward, left
+
+    [[nodiscard]] double lastUsed(Sensor sensor) const {
+        return last_used_s[static_cast<std::size_t>(sensor)];
+    }
+    double& lastUsed(Sensor sensor) { return last_used_s[static_cast<std::size_t>(sensor)]; }
+};
+
+/// Multiplies the variance of an error with correlation time tau that is read every dt, so that a filter
+/// which takes it for white noise gains no more from it than there is: the spectral density at zero of the
+/// correlated error, 2 sigma^2 tau, spread over samples dt apart. At least 1. Source: Gelb, Applied Optimal
+/// Estimation, section 4.5.
+[[nodiscard]] double whiteNoiseFactor(double correlation_s, double interval_s);
+
+/// Everything that is needed to read an epoch; refers, does not own.
+struct ReadingContext {
+    const ArrayLog& log;
+    const FusionOptions& options;
+    const LocalFrame& frame;
+    const std::vector<EpochAttitude>& attitudes;
+    const RunReference& reference;
+};
+
+/// Replaces `readings` by those of one epoch, ties excepted, given the predicted state (for the yaw row's
+/// linearisation and the height at which bare latitudes are converted).
+void readEpoch(const ReadingContext& context, std::size_t epoch, const StateEstimate& prediction,
+               const SensorMemory& memory, std::vector<Reading>& readings);
+
+}  // namespace terrawalk

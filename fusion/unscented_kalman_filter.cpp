@@ -1,0 +1,130 @@
+#include "fusion/unscented_kalman_filter.hpp"
+
+#include <Eigen/Cholesky>
+#include <array>
+#include <cmath>
+
+#include "fusion/unscented_transform.hpp"
+#include "survey/frames.hpp"
+
+namespace terrawalk {
+
+namespace {
+
+Matrix9d symmetric(const Matrix9d& P) {
+    return 0.5 * (P + P.transpose());
+}
+
+double course(const Eigen::Vector2d& velocity) {
+    return std::atan2(velocity.y(), velocity.x());
+}
+
+}  // namespace
+
+double innovation(const StateEstimate& state, const LinearRow& row) {
+    return row.value - row.direction.dot(state.block(row.block));
+}
+
+double predictedVariance(const StateEstimate& state, const LinearRow& row) {
+    return row.direction.dot(state.blockCovariance(row.block) * row.direction);
+}
+
+StateEstimate predicted(const StateEstimate& state, const Transition& transition) {
+    const Matrix9d FP = transition.F * state.covariance;
+    const Matrix9d P = FP * transition.F.transpose() + transition.Q;
+    return {transition.F * state.mean, symmetric(P)};
+}
+
+StateEstimate updated(const StateEstimate& state, const LinearRow& row) {
+    const int at = offset(row.block);
+    const Vector9d PH = state.covariance.middleCols<3>(at) * row.direction;
+    const double S = row.direction.dot(PH.segment<3>(at)) + row.variance;
+    const Vector9d gain = PH / S;
+
+    // (I - K H) P (I - K H)' + K R K'
+    const Matrix9d A = state.covariance - gain * PH.transpose();
+    const Vector9d AH = A.middleCols<3>(at) * row.direction;
+    const Matrix9d P = A - AH * gain.transpose() + row.variance * gain * gain.transpose();
+    return {state.mean + gain * innovation(state, row), symmetric(P)};
+}
+
+LinearRow linearised(const StateEstimate& state, const YawRow& row, const UnscentedOptions& options) {
+    static_assert(offset(StateBlock::Velocity) == 0,
+                  "the leading Cholesky columns must be those of the velocity");
+    const double spread = sigmaPointSpread(options, 9);
+    const double weight = 0.5 / spread;
+    const Eigen::Matrix2d P = state.covariance.topLeftCorner<2, 2>();
+    const Eigen::Matrix2d L = P.llt().matrixL();
+    const Eigen::Vector2d velocity = state.mean.head<2>();
+    const double centre_rad = course(velocity);
+
+    Eigen::Vector2d slope;    // d: cross-covariance in the columns of L
+    double mean_shift = 0.0;  // m
+    double curvature = 0.0;   // first term of Omega
+    for (int i = 0; i < 2; ++i) {
+        const Eigen::Vector2d step = std::sqrt(spread) * L.col(i);
+        const double above = wrapAngle(course(velocity + step) - centre_rad);
+        const double below = wrapAngle(course(velocity - step) - centre_rad);
+        slope[i] = (above - below) / (2.0 * std::sqrt(spread));
+        mean_shift += weight * (above + below);
+        curvature += 0.5 * weight * (above + below) * (above + below);
+    }
+    const double omega = curvature + (options.beta - options.alpha * options.alpha) * mean_shift * mean_shift;
+    const Eigen::Vector2d gradient = L.transpose().triangularView<Eigen::Upper>().solve(slope);
+
+    LinearRow linear;
+    linear.block = StateBlock::Velocity;
+    linear.direction << gradient, 0.0;
+    linear.value = gradient.dot(velocity) + wrapAngle(row.yaw_rad - centre_rad - mean_shift);
+    linear.variance = row.variance + omega;
+    return linear;
+}
+
+StateEstimate referencePredicted(const StateEstimate& state, const Transition& transition,
+                                 const UnscentedOptions& options) {
+    const TransformedMoments moments = unscentedTransform(
+        state.mean, state.covariance,
+        [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return transition.F * x; }, options);
+    const Matrix9d P = moments.covariance + transition.Q;
+    return {moments.mean, symmetric(P)};
+}
+
+StateEstimate referenceUpdated(const StateEstimate& state, std::span<const LinearRow> rows,
+                               const std::optional<YawRow>& yaw, const UnscentedOptions& options) {
+    const auto linear_rows = static_cast<Eigen::Index>(rows.size());
+    const Eigen::Index m = linear_rows + (yaw ? 1 : 0);
+    if (m == 0) return state;
+    Eigen::VectorXd z(m);
+    Eigen::VectorXd R(m);
+    for (Eigen::Index i = 0; i < linear_rows; ++i) {
+        z[i] = rows[static_cast<std::size_t>(i)].value;
+        R[i] = rows[static_cast<std::size_t>(i)].variance;
+    }
+    if (yaw) {
+        z[m - 1] = yaw->yaw_rad;
+        R[m - 1] = yaw->variance;
+    }
+    const auto h = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+        Eigen::VectorXd y(m);
+        for (Eigen::Index i = 0; i < linear_rows; ++i) {
+            const LinearRow& row = rows[static_cast<std::size_t>(i)];
+            y[i] = row.direction.dot(x.segment<3>(offset(row.block)));
+        }
+        if (yaw) y[m - 1] = course(x.head<2>());
+        return y;
+    };
+    const auto difference = [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) -> Eigen::VectorXd {
+        Eigen::VectorXd d = a - b;
+        if (yaw) d[m - 1] = wrapAngle(d[m - 1]);
+        return d;
+    };
+    const TransformedMoments moments =
+        unscentedTransform(state.mean, state.covariance, h, difference, options);
+    Eigen::MatrixXd S = moments.covariance;
+    S.diagonal() += R;
+    const Eigen::MatrixXd gain = S.ldlt().solve(moments.cross_covariance.transpose()).transpose();
+    const Matrix9d P = state.covariance - gain * S * gain.transpose();
+    return {state.mean + gain * difference(z, moments.mean), symmetric(P)};
+}
+
+}  // namespace terrawalk

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "survey/survey_report.hpp"
+
+namespace terrawalk {
+
+// The report's files as text. Pure: the same values give the same bytes. The functions that write them to
+// disk stand in io/write_products.hpp.
+
+/// One row for each residual: stage, quantity, mark, role, run, mark_{e,n,u}_m, d_{e,n,u}_m, sigma_{e,n,u}_m,
+/// used_by_estimator. Differences are product - mark; what is missing is empty. Micrometres, RFC 4180
+/// quoting, newline at each line's end.
+[[nodiscard]] std::string residualsCsv(const std::vector<Residual>& residuals);
+
+/// Every value of the report. Keys stand in this order; numbers are shortest decimals that read back to the
+/// same bits; what is missing is null. Lengths are metres; angles do not occur.
+///
+///     format              "terrawalk-report 1"
+///     survey, program_version, method, seed
+///     figures             [{label, value, detail}]           the three figures, as text
+///     statements, limitations, warnings                      [sentence]
+///     headline            {stage, quantity, role} or null    the group that the first figure quotes
+///     accuracy            [{stage, quantity, role, east, north, up, horizontal, up_coverage}]
+///         east ...        null or {n, marks, mean_m, sd_m, rmse_m, rmse_95_m: [low, high] or null, mae_m,
+///         median_m,
+///                         nmad_m, largest_m}
+///         up_coverage     null or {n, within_1_96_sigma}
+///     residuals           [{stage, quantity, mark, role, run, mark_enu_m, difference_enu_m, sigma_enu_m,
+///                         used_by_estimator}]                vectors are [e, n, u]
+///     missing_residuals   [{stage, quantity, mark, role, run}]
+///     marks               [{name, role, enu_m, sigma_h_m, sigma_v_m}]
+///     surface             {method, points, triangles, longest_edge_m, area_m2, cell_m, columns, rows,
+///                         cells_with_height, lowest_m, highest_m, crs, vertical_datum}
+///     runs                [{id, kind, rows_read, epochs, repeated_lines, late_lines, cut_off_line (or null),
+///                         duration_s, distance_m, fixes: [{reason, count}], sensors: [{sensor, offered,
+///                         used, down_weighted, rejections: [{reason, count}]}], ground_points_used,
+///                         ground_points_rejected: [{reason, count}], notes, track_enu_m}]
+///     settings            [{key, requested, used}]
+///     inputs              [{path, bytes, sha256}]
+[[nodiscard]] std::string reportJson(const SurveyReport& report);
+
+/// The report as one page of HTML that is well-formed XML too: styles and drawings inside, no script, nothing
+/// fetched.
+[[nodiscard]] std::string reportHtml(const SurveyReport& report);
+
+}  // namespace terrawalk

@@ -1,0 +1,185 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+
+#include "io/output_folder.hpp"
+#include "io/report_text.hpp"
+#include "io/write_products.hpp"
+
+namespace terrawalk {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A list of values, each taken to JSON; an array also when there is none.
+template <class T, class ToJson>
+Json listOf(const std::vector<T>& values, ToJson to_json) {
+    Json list = Json::array();
+    for (const T& value : values) list.push_back(to_json(value));
+    return list;
+}
+
+Json jsonNumber(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json jsonVector(const Eigen::Vector3d& v) {
+    return Json::array({jsonNumber(v.x()), jsonNumber(v.y()), jsonNumber(v.z())});
+}
+
+Json statisticsJson(const std::optional<ErrorStatistics>& s) {
+    if (!s) return nullptr;
+    return {{"n", s->n},
+            {"marks", s->marks},
+            {"mean_m", jsonNumber(s->mean_m)},
+            {"sd_m", s->sd_m ? jsonNumber(*s->sd_m) : Json(nullptr)},
+            {"rmse_m", jsonNumber(s->rmse_m)},
+            {"rmse_95_m", s->rmse_95
+                              ? Json::array({jsonNumber(s->rmse_95->low_m), jsonNumber(s->rmse_95->high_m)})
+                              : Json(nullptr)},
+            {"mae_m", jsonNumber(s->mae_m)},
+            {"median_m", jsonNumber(s->median_m)},
+            {"nmad_m", jsonNumber(s->nmad_m)},
+            {"largest_m", jsonNumber(s->largest_m)}};
+}
+
+Json groupNameJson(const AccuracyGroup& group) {
+    return {{"stage", name(group.stage)}, {"quantity", name(group.quantity)}, {"role", name(group.role)}};
+}
+
+Json groupJson(const AccuracyGroup& group) {
+    Json json = groupNameJson(group);
+    json["east"] = statisticsJson(group.east);
+    json["north"] = statisticsJson(group.north);
+    json["up"] = statisticsJson(group.up);
+    json["horizontal"] = statisticsJson(group.horizontal);
+    json["up_coverage"] = nullptr;
+    if (group.up_coverage) {
+        json["up_coverage"] = {{"n", group.up_coverage->n}, {"within_1_96_sigma", group.up_coverage->within}};
+    }
+    return json;
+}
+
+Json headlineJson(const SurveyReport& report) {
+    return report.headline ? groupNameJson(report.accuracy.at(*report.headline)) : Json(nullptr);
+}
+
+Json residualJson(const Residual& r) {
+    return {{"stage", name(r.stage)},
+            {"quantity", name(r.quantity)},
+            {"mark", r.mark},
+            {"role", name(r.role)},
+            {"run", r.run},
+            {"mark_enu_m", jsonVector(r.mark_enu_m)},
+            {"difference_enu_m", jsonVector(r.difference_enu_m)},
+            {"sigma_enu_m", jsonVector(r.sigma_enu_m)},
+            {"used_by_estimator", r.used_by_estimator}};
+}
+
+Json missingJson(const MissingResidual& m) {
+    return {{"stage", name(m.stage)},
+            {"quantity", name(m.quantity)},
+            {"mark", m.mark},
+            {"role", name(m.role)},
+            {"run", m.run}};
+}
+
+Json markJson(const ControlMark& mark) {
+    return {{"name", mark.name},
+            {"role", name(mark.role)},
+            {"enu_m", jsonVector(mark.enu_m)},
+            {"sigma_h_m", jsonNumber(mark.sigma_h_m)},
+            {"sigma_v_m", jsonNumber(mark.sigma_v_m)}};
+}
+
+Json surfaceJson(const SurfaceReport& s) {
+    return {{"method", s.method},
+            {"points", s.points},
+            {"triangles", s.triangles},
+            {"longest_edge_m", jsonNumber(s.longest_edge_m)},
+            {"area_m2", jsonNumber(s.area_m2)},
+            {"cell_m", jsonNumber(s.cell_m)},
+            {"columns", s.columns},
+            {"rows", s.rows},
+            {"cells_with_height", s.cells_with_height},
+            {"lowest_m", jsonNumber(s.lowest_m)},
+            {"highest_m", jsonNumber(s.highest_m)},
+            {"crs", s.crs},
+            {"vertical_datum", s.vertical_datum}};
+}
+
+template <class Reason>
+Json reasonsJson(const std::vector<Reason>& reasons) {
+    return listOf(reasons, [](const Reason& r) { return Json{{"reason", r.reason}, {"count", r.count}}; });
+}
+
+Json sensorJson(const SensorUse& s) {
+    return {{"sensor", s.sensor},
+            {"offered", s.offered},
+            {"used", s.used},
+            {"down_weighted", s.down_weighted},
+            {"rejections", reasonsJson(s.rejections)}};
+}
+
+Json runJson(const RunReport& run) {
+    return {{"id", run.id},
+            {"kind", name(run.kind)},
+            {"rows_read", run.rows_read},
+            {"epochs", run.epochs},
+            {"repeated_lines", run.repeated_lines},
+            {"late_lines", run.late_lines},
+            {"cut_off_line", run.cut_off_line > 0 ? Json(run.cut_off_line) : Json(nullptr)},
+            {"duration_s", jsonNumber(run.duration_s)},
+            {"distance_m", jsonNumber(run.distance_m)},
+            {"fixes", reasonsJson(run.fixes)},
+            {"sensors", listOf(run.sensors, sensorJson)},
+            {"ground_points_used", run.ground_points_used},
+            {"ground_points_rejected", reasonsJson(run.ground_points_rejected)},
+            {"notes", run.notes},
+            {"track_enu_m", listOf(run.track_enu_m, jsonVector)}};
+}
+
+Json figureJson(const KeyFigure& f) {
+    return {{"label", f.label}, {"value", f.value}, {"detail", f.detail}};
+}
+
+Json settingJson(const UsedSetting& s) {
+    return {{"key", s.key}, {"requested", s.requested}, {"used", s.used}};
+}
+
+Json inputJson(const InputFile& i) {
+    return {{"path", i.path}, {"bytes", i.bytes}, {"sha256", i.sha256}};
+}
+
+}  // namespace
+
+std::string reportJson(const SurveyReport& report) {
+    const Json json{{"format", "terrawalk-report 1"},
+                    {"survey", report.survey_name},
+                    {"program_version", report.program_version},
+                    {"method", report.method},
+                    {"seed", report.seed},
+                    {"figures", listOf(report.figures, figureJson)},
+                    {"statements", report.statements},
+                    {"limitations", report.limitations},
+                    {"warnings", report.warnings},
+                    {"headline", headlineJson(report)},
+                    {"accuracy", listOf(report.accuracy, groupJson)},
+                    {"residuals", listOf(report.residuals, residualJson)},
+                    {"missing_residuals", listOf(report.missing_residuals, missingJson)},
+                    {"marks", listOf(report.marks, markJson)},
+                    {"surface", surfaceJson(report.surface)},
+                    {"runs", listOf(report.runs, runJson)},
+                    {"settings", listOf(report.settings, settingJson)},
+                    {"inputs", listOf(report.inputs, inputJson)}};
+    // Names come from files of anybody: what is no UTF-8 becomes U+FFFD instead of an exception.
+    return json.dump(1, '\t', false, Json::error_handler_t::replace) + "\n";
+}
+
+Result<void> writeReportJson(const SurveyReport& report, const std::filesystem::path& file) {
+    return writeTextFile(reportJson(report), file);
+}
+
+}  // namespace terrawalk

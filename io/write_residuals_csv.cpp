@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <string_view>
+
+#include "io/output_folder.hpp"
+#include "io/report_text.hpp"
+#include "io/write_products.hpp"
+
+namespace terrawalk {
+
+namespace {
+
+std::string csvField(std::string_view text) {
+    if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+    std::string quoted = "\"";
+    for (const char c : text) {
+        if (c == '"') quoted += '"';
+        quoted += c;
+    }
+    return quoted + '"';
+}
+
+std::string csvNumber(double value) {
+    if (!std::isfinite(value)) return {};
+    const std::string text = fmt::format("{:.6f}", value);
+    return text == "-0.000000" ? "0.000000" : text;
+}
+
+std::string csvVector(const Eigen::Vector3d& v) {
+    return csvNumber(v.x()) + "," + csvNumber(v.y()) + "," + csvNumber(v.z());
+}
+
+}  // namespace
+
+std::string residualsCsv(const std::vector<Residual>& residuals) {
+    std::string out =
+        "stage,quantity,mark,role,run,mark_e_m,mark_n_m,mark_u_m,d_e_m,d_n_m,d_u_m,"
+        "sigma_e_m,sigma_n_m,sigma_u_m,used_by_estimator\n";
+    for (const Residual& r : residuals) {
+        fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{},{}\n", name(r.stage),
+                       name(r.quantity), csvField(r.mark), name(r.role), csvField(r.run),
+                       csvVector(r.mark_enu_m), csvVector(r.difference_enu_m), csvVector(r.sigma_enu_m),
+                       r.used_by_estimator ? "true" : "false");
+    }
+    return out;
+}
+
+Result<void> writeResidualsCsv(const std::vector<Residual>& residuals, const std::filesystem::path& file) {
+    return writeTextFile(residualsCsv(residuals), file);
+}
+
+}  // namespace terrawalk

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "survey/survey_report.hpp"
+
+namespace terrawalk {
+
+// The one place where the report's claims are worded. The sentences follow the ASPRS Positional Accuracy
+// Standards for Digital Geospatial Data, Edition 2, as far as the program can know: it states what was found
+// and claims no accuracy class, because it knows neither the class that was asked for nor the land cover at
+// the marks.
+
+/// The group that speaks for the product: heights at check marks, of the latest stage that was compared.
+/// Nothing when no check mark was compared. An index into `groups`.
+[[nodiscard]] std::optional<std::size_t> headlineGroup(const std::vector<AccuracyGroup>& groups);
+
+// The three functions below read report.accuracy and report.headline.
+
+/// Three figures: height error, check marks, resolution and area.
+[[nodiscard]] std::vector<KeyFigure> keyFigures(const SurveyReport& report);
+
+/// What the marks say about the product: error found, gain over the sensors as they are, bias, possible
+/// blunders, honesty of the predicted sigmas.
+[[nodiscard]] std::vector<std::string> accuracyStatements(const SurveyReport& report);
+
+/// What could not be checked, as far as it follows from marks and residuals: no marks, no check marks, too
+/// few of them, marks that met no surface or no point, residuals that the estimator has seen.
+[[nodiscard]] std::vector<std::string> accuracyLimitations(const SurveyReport& report);
+
+/// The report with accuracy, figures and statements filled in from its marks and residuals, and the
+/// limitations above put before those that it has. Call once, when everything else is in. Pure; safe from any
+/// thread.
+[[nodiscard]] SurveyReport withAccuracy(SurveyReport report);
+
+}  // namespace terrawalk

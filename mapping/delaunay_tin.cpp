@@ -1,0 +1,378 @@
+#include "mapping/delaunay_tin.hpp"
+
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <mutex>
+#include <new>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "mapping/edge_limit.hpp"
+#include "mapping/triangle_locator.hpp"
+
+namespace terrawalk {
+
+struct DelaunayTin::Surface {
+    TriangleMesh mesh;
+    double longest_edge_m = 0.0;
+    double area_m2 = 0.0;
+    /// Only who asks for heights pays for the locator.
+    mutable std::once_flag locator_made;
+    mutable std::optional<TriangleLocator> locator;
+};
+
+namespace {
+
+// The triangulation works on the coordinates as they stand: exact predicates need no origin nearby. Heights
+// ride along as indices, which keeps vertices small.
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using PlanPoint = Kernel::Point_2;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
+using Triangulation =
+    CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase>>;
+using Triangle = std::array<std::uint32_t, 3>;
+
+constexpr std::size_t kInsertionsBetweenReports = 16384;
+constexpr double kGreatestCoordinate_m = 1e9;  // beyond any map frame on Earth
+
+PlanPoint plan(const Eigen::Vector3d& point_m) {
+    return {point_m.x(), point_m.y()};
+}
+
+constexpr int kCurveBits = 24;  // per axis
+
+/// Place along a Hilbert curve over 2^24 x 2^24 cells. Neighbours on the curve are neighbours on the ground.
+std::uint64_t hilbertIndex(std::uint32_t column, std::uint32_t row) {
+    std::uint64_t index = 0;
+    for (int bit = kCurveBits - 1; bit >= 0; --bit) {
+        const std::uint32_t right = (column >> bit) & 1U;
+        const std::uint32_t upper = (row >> bit) & 1U;
+        index = (index << 2) | ((3U * right) ^ upper);
+        // Without branches: which quarter comes next is as good as random.
+        const std::uint32_t mirror = 0U - (right & (upper ^ 1U));
+        column ^= mirror;
+        row ^= mirror;
+        const std::uint32_t exchange = (column ^ row) & (0U - (upper ^ 1U));
+        column ^= exchange;
+        row ^= exchange;
+    }
+    return index;
+}
+
+struct CurvePlace {
+    std::uint64_t curve;
+    std::uint32_t point;
+};
+
+/// By the curve, then by coordinates. First into buckets by the leading bits, which is most of the work done
+/// in one pass.
+void sortAlongCurve(std::vector<CurvePlace>& places, const std::vector<Eigen::Vector3d>& points_m) {
+    constexpr int kBucketShift = 2 * kCurveBits - 12;
+    std::array<std::size_t, (1U << 12) + 1> begins{};
+    for (const CurvePlace& place : places) {
+        ++begins[(place.curve >> kBucketShift) + 1];
+    }
+    std::partial_sum(begins.begin(), begins.end(), begins.begin());
+    std::vector<CurvePlace> sorted(places.size());
+    auto next = begins;
+    for (const CurvePlace& place : places) {
+        sorted[next[place.curve >> kBucketShift]++] = place;
+    }
+    const auto before = [&](const CurvePlace& a, const CurvePlace& b) {
+        if (a.curve != b.curve) {
+            return a.curve < b.curve;
+        }
+        const Eigen::Vector3d& p = points_m[a.point];
+        const Eigen::Vector3d& q = points_m[b.point];
+        return std::tuple(p.y(), p.x(), p.z()) < std::tuple(q.y(), q.x(), q.z());
+    };
+    for (std::size_t bucket = 0; bucket + 1 < begins.size(); ++bucket) {
+        std::sort(sorted.data() + begins[bucket], sorted.data() + begins[bucket + 1], before);
+    }
+    places.swap(sorted);
+}
+
+/// Points in the order of a Hilbert curve, then by coordinates: one order, whatever order they came in. Minus
+/// zero becomes zero, since the two compare equal and differ in their bytes.
+std::vector<Eigen::Vector3d> inCurveOrder(const std::vector<Eigen::Vector3d>& points_m) {
+    Eigen::Vector3d low = points_m.front();
+    Eigen::Vector3d high = points_m.front();
+    for (const Eigen::Vector3d& point : points_m) {
+        low = low.cwiseMin(point);
+        high = high.cwiseMax(point);
+    }
+    const double extent = std::max(high.x() - low.x(), high.y() - low.y());
+    const double cells_per_metre = extent > 0.0 ? (std::ldexp(1.0, kCurveBits) - 1.0) / extent : 0.0;
+
+    std::vector<CurvePlace> places(points_m.size());
+    for (std::size_t i = 0; i < points_m.size(); ++i) {
+        places[i] = {hilbertIndex(static_cast<std::uint32_t>((points_m[i].x() - low.x()) * cells_per_metre),
+                                  static_cast<std::uint32_t>((points_m[i].y() - low.y()) * cells_per_metre)),
+                     static_cast<std::uint32_t>(i)};
+    }
+    sortAlongCurve(places, points_m);
+
+    std::vector<Eigen::Vector3d> ordered(points_m.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const Eigen::Vector3d& point = points_m[places[i].point];
+        ordered[i] = {point.x() + 0.0, point.y() + 0.0, point.z() + 0.0};
+    }
+    return ordered;
+}
+
+/// Points at the same place in plan, neighbours in curve order, become one at their mean height.
+void mergeSamePlaces(std::vector<Eigen::Vector3d>& points_m) {
+    std::size_t kept = 0;
+    for (std::size_t begin = 0; begin < points_m.size();) {
+        const Eigen::Vector3d first = points_m[begin];
+        double above_first = 0.0;
+        std::size_t end = begin;
+        while (end < points_m.size() && points_m[end].x() == first.x() && points_m[end].y() == first.y()) {
+            above_first += points_m[end].z() - first.z();
+            ++end;
+        }
+        const double mean = first.z() + above_first / static_cast<double>(end - begin);
+        points_m[kept++] = {first.x(), first.y(), mean};
+        begin = end;
+    }
+    points_m.resize(kept);
+}
+
+/// A point off the line through the first and the last; nothing when there is none.
+std::optional<std::size_t> findOffLine(const std::vector<Eigen::Vector3d>& points_m) {
+    for (std::size_t i = 1; i + 1 < points_m.size(); ++i) {
+        if (CGAL::orientation(plan(points_m.front()), plan(points_m[i]), plan(points_m.back())) !=
+            CGAL::COLLINEAR) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+/// Biased randomized insertion order (Amenta, Choi and Rote 2003): sparse levels first, each along the curve.
+/// It bounds the cost for points in any arrangement. The level of a point is the number of trailing zero bit
+/// pairs of its scrambled index: a quarter of the points moves up each time.
+std::vector<std::uint32_t> insertionOrder(std::size_t count) {
+    constexpr std::size_t kLevels = 12;
+    const auto level = [](std::size_t index) {
+        std::uint64_t bits = (index + 1) * 0x9E3779B97F4A7C15ULL;
+        bits = (bits ^ (bits >> 32)) * 0xD6E8FEB86659FD93ULL;
+        return std::min<std::size_t>(static_cast<std::size_t>(std::countr_zero(bits >> 16)) / 2, kLevels - 1);
+    };
+    std::array<std::size_t, kLevels + 1> begins{};
+    for (std::size_t i = 0; i < count; ++i) {
+        ++begins[kLevels - level(i)];
+    }
+    std::partial_sum(begins.begin(), begins.end(), begins.begin());
+    std::vector<std::uint32_t> order(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        order[begins[kLevels - 1 - level(i)]++] = static_cast<std::uint32_t>(i);
+    }
+    return order;
+}
+
+/// @param off_line  a point that makes a triangle with the first and the last. These three come first: along
+/// a
+///                  straight line alone CGAL searches from end to end for each point.
+Result<Triangulation> triangulate(const std::vector<Eigen::Vector3d>& points_m, std::size_t off_line,
+                                  Progress& progress, std::stop_token stop) {
+    Triangulation triangulation;
+    Triangulation::Face_handle near;
+    const auto insert = [&](std::size_t i) {
+        const Triangulation::Vertex_handle vertex = triangulation.insert(plan(points_m[i]), near);
+        vertex->info() = static_cast<std::uint32_t>(i);
+        near = vertex->face();
+    };
+    insert(0);
+    insert(points_m.size() - 1);
+    insert(off_line);
+    std::size_t done = 0;
+    for (const std::uint32_t i : insertionOrder(points_m.size())) {
+        if (++done % kInsertionsBetweenReports == 0) {
+            if (stop.stop_requested()) {
+                return cancelled();
+            }
+            progress.report(static_cast<double>(done) / static_cast<double>(points_m.size()),
+                            "triangulating");
+        }
+        insert(i);
+    }
+    return triangulation;
+}
+
+/// Each triangle from its lowest index on, in rising order: the same list however CGAL stores its faces.
+std::vector<Triangle> orderedTriangles(const Triangulation& triangulation, std::size_t vertex_count) {
+    std::vector<Triangle> found;
+    found.reserve(triangulation.number_of_faces());
+    std::vector<std::size_t> begins(vertex_count + 1, 0);
+    for (const auto face : triangulation.finite_face_handles()) {
+        Triangle triangle{face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()};
+        std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+        found.push_back(triangle);
+        ++begins[triangle[0] + 1];
+    }
+    std::partial_sum(begins.begin(), begins.end(), begins.begin());
+    std::vector<Triangle> ordered(found.size());
+    std::vector<std::size_t> next(begins.begin(), begins.end() - 1);
+    for (const Triangle& triangle : found) {
+        ordered[next[triangle[0]]++] = triangle;
+    }
+    for (std::size_t vertex = 0; vertex < vertex_count; ++vertex) {
+        std::sort(ordered.data() + begins[vertex], ordered.data() + begins[vertex + 1]);
+    }
+    return ordered;
+}
+
+std::vector<TriangleExtent> extents(const TriangleMesh& mesh) {
+    std::vector<TriangleExtent> result(mesh.triangles.size());
+    for (std::size_t t = 0; t < result.size(); ++t) {
+        const Eigen::Vector2d a = mesh.vertices_m[mesh.triangles[t][0]].head<2>();
+        const Eigen::Vector2d b = mesh.vertices_m[mesh.triangles[t][1]].head<2>();
+        const Eigen::Vector2d c = mesh.vertices_m[mesh.triangles[t][2]].head<2>();
+        const Eigen::Vector2d ab = b - a;
+        const Eigen::Vector2d ac = c - a;
+        result[t].longest_edge_m =
+            std::sqrt(std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()}));
+        result[t].area_m2 = 0.5 * (ab.x() * ac.y() - ab.y() * ac.x());
+    }
+    return result;
+}
+
+/// Leaves out the triangles above the limit and then the vertices that none uses; orders stay.
+TriangleMesh withinLimit(TriangleMesh mesh, const std::vector<TriangleExtent>& extent,
+                         double longest_edge_m) {
+    std::vector<bool> used(mesh.vertices_m.size(), false);
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (extent[t].longest_edge_m <= longest_edge_m) {
+            mesh.triangles[kept++] = mesh.triangles[t];
+            for (const std::uint32_t vertex : mesh.triangles[t]) {
+                used[vertex] = true;
+            }
+        }
+    }
+    mesh.triangles.resize(kept);
+    std::vector<std::uint32_t> new_index(mesh.vertices_m.size(), 0);
+    std::uint32_t used_count = 0;
+    for (std::size_t vertex = 0; vertex < mesh.vertices_m.size(); ++vertex) {
+        if (used[vertex]) {
+            mesh.vertices_m[used_count] = mesh.vertices_m[vertex];
+            new_index[vertex] = used_count++;
+        }
+    }
+    mesh.vertices_m.resize(used_count);
+    for (Triangle& triangle : mesh.triangles) {
+        for (std::uint32_t& vertex : triangle) {
+            vertex = new_index[vertex];
+        }
+    }
+    return mesh;
+}
+
+Result<TriangleMesh> delaunayMesh(const std::vector<Eigen::Vector3d>& points_m, Progress& progress,
+                                  std::stop_token stop) {
+    static constexpr auto kCure =
+        "walk several lines beside one another, and look at why ground points were rejected";
+    for (std::size_t i = 0; i < points_m.size(); ++i) {
+        if (!(points_m[i].cwiseAbs().maxCoeff() <= kGreatestCoordinate_m) || !points_m[i].allFinite()) {
+            return badData(fmt::format("ground point {} of {} is no place on Earth: {}, {}, {}", i + 1,
+                                       points_m.size(), points_m[i].x(), points_m[i].y(), points_m[i].z()));
+        }
+    }
+    if (points_m.size() > 0x7FFF'FFFFU) {
+        return badData(fmt::format("{} ground points are more than a surface can hold", points_m.size()), {},
+                       0, "thin the points");
+    }
+    TriangleMesh mesh;
+    if (!points_m.empty()) {
+        mesh.vertices_m = inCurveOrder(points_m);
+        mergeSamePlaces(mesh.vertices_m);
+    }
+    if (mesh.vertices_m.size() < 3) {
+        return badData(
+            fmt::format("a surface needs at least three ground points at different places, there are {}",
+                        mesh.vertices_m.size()),
+            {}, 0, kCure);
+    }
+    if (stop.stop_requested()) {
+        return cancelled();
+    }
+    const std::optional<std::size_t> off_line = findOffLine(mesh.vertices_m);
+    if (!off_line) {
+        return badData(fmt::format("all {} ground points lie on one straight line", mesh.vertices_m.size()),
+                       {}, 0, kCure);
+    }
+    const Result<Triangulation> triangulation = triangulate(mesh.vertices_m, *off_line, progress, stop);
+    if (!triangulation) {
+        return tl::unexpected(triangulation.error());
+    }
+    mesh.triangles = orderedTriangles(*triangulation, mesh.vertices_m.size());
+    return mesh;
+}
+
+}  // namespace
+
+DelaunayTin::DelaunayTin(std::shared_ptr<const Surface> surface) : surface_(std::move(surface)) {}
+
+Result<DelaunayTin> DelaunayTin::build(const std::vector<Eigen::Vector3d>& points_m,
+                                       const TinOptions& options, Progress& progress, std::stop_token stop) {
+    if (!(options.longest_edge_m >= 0.0)) {
+        return usageError("the longest edge of the surface's triangles may not be below zero",
+                          "give metres, or 0 to take it from the points");
+    }
+    try {
+        Result<TriangleMesh> mesh = delaunayMesh(points_m, progress, stop);
+        if (!mesh) {
+            return tl::unexpected(mesh.error());
+        }
+        const std::vector<TriangleExtent> extent = extents(*mesh);
+        auto surface = std::make_shared<Surface>();
+        surface->longest_edge_m = options.longest_edge_m > 0.0
+                                      ? options.longest_edge_m
+                                      : longestEdgeLimit(extent, mesh->vertices_m.size());
+        surface->mesh = withinLimit(std::move(*mesh), extent, surface->longest_edge_m);
+        if (surface->mesh.triangles.empty()) {
+            return badData(fmt::format("no triangle between the ground points has all edges within {} m",
+                                       surface->longest_edge_m),
+                           {}, 0, "allow a longer edge, or 0 to take the limit from the points");
+        }
+        for (const TriangleExtent& triangle : extent) {
+            if (triangle.longest_edge_m <= surface->longest_edge_m) {
+                surface->area_m2 += triangle.area_m2;
+            }
+        }
+        progress.report(1.0, "triangulating");
+        return DelaunayTin(std::move(surface));
+    } catch (const std::bad_alloc&) {
+        return systemError(fmt::format("not enough memory to triangulate {} points", points_m.size()), {},
+                           "thin the points");
+    } catch (const CGAL::Failure_exception& failure) {
+        return systemError(fmt::format("the triangulation failed: {}", failure.what()));
+    }
+}
+
+const TriangleMesh& DelaunayTin::mesh() const {
+    return surface_->mesh;
+}
+double DelaunayTin::longestEdge_m() const {
+    return surface_->longest_edge_m;
+}
+double DelaunayTin::area_m2() const {
+    return surface_->area_m2;
+}
+
+std::optional<double> DelaunayTin::heightAt(double x_m, double y_m) const {
+    std::call_once(surface_->locator_made, [this] { surface_->locator.emplace(surface_->mesh); });
+    return surface_->locator->heightAt(surface_->mesh, x_m, y_m);
+}
+
+}  // namespace terrawalk

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "survey/ground_point.hpp"
+#include "survey/mark_stands.hpp"
+#include "survey/survey.hpp"
+#include "survey/survey_report.hpp"
+
+namespace terrawalk {
+
+/// Comparisons with marks, and those that could not be made. All differences are product - mark, local ENU
+/// [m]. Every function here is pure and safe from any thread.
+struct MarkResiduals {
+    std::vector<Residual> residuals;
+    std::vector<MissingResidual> missing;
+};
+
+/// Names of the marks to which the estimator is tied somewhere in the survey. Give the later functions an
+/// empty set for products that no estimator made (before fusion, raw).
+[[nodiscard]] std::set<std::string> tiedMarks(const Survey& survey, const StandOptions& options);
+
+/// Ground below the array while it stood on a mark: the median of each axis over the epochs of the stand, so
+/// that single bad ranges do no harm. Counts every point with a sound range, thinned or not, unsure of its
+/// position or not: to leave unsure positions out would hide the worst errors. The sigma is the median of the
+/// points' sigmas, undivided because errors within a second or two are one error, with the mark's own. A
+/// start mark to which the estimator may be tied is left out: heights are counted from there in every method.
+/// @param points  those of this run, any order
+/// @param tied    whether the estimator was tied to the stands that allow it
+[[nodiscard]] MarkResiduals positionResiduals(const Run& run, const std::vector<MarkStand>& stands,
+                                              const std::vector<GroundPoint>& points, Stage stage, bool tied);
+
+struct NearestSampleOptions {
+    double greatest_distance_m = 3.0;  ///< in plan; farther points say nothing of a mark
+};
+/// Height of the sound ground point (used or thinned) nearest to each mark in plan, the measure of paper 000.
+/// Holds the ground's slope between point and mark, so it is no smaller than the slope times the distance. Of
+/// points equally near the first in (run, epoch) counts. The sigma is that of the point's height and of the
+/// mark. One pass over the points: milliseconds for a million.
+/// @param points  of any runs; `run` is an index into survey.runs
+[[nodiscard]] MarkResiduals nearestSampleResiduals(const Survey& survey,
+                                                   const std::vector<GroundPoint>& points, Stage stage,
+                                                   const std::set<std::string>& tied_marks,
+                                                   const NearestSampleOptions& options = {});
+
+/// Height of the surface at a mark, in the frame of the mark's u; nothing where there is no surface.
+using SurfaceHeightAt = std::function<std::optional<double>(const ControlMark&)>;
+/// Height of the surface at each mark. No sigma is predicted yet.
+[[nodiscard]] MarkResiduals surfaceResiduals(const std::vector<ControlMark>& marks,
+                                             const SurfaceHeightAt& surface_height,
+                                             const std::set<std::string>& tied_marks);
+
+}  // namespace terrawalk

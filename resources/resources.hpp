@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string_view>
+
+/// Files of the folder `resources`, compiled in.
+namespace terrawalk::resources {
+
+extern const std::string_view relief_ramp;  ///< CSV: red,green,blue from low to high
+
+}  // namespace terrawalk::resources

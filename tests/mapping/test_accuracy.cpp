@@ -1,0 +1,307 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mapping/accuracy.hpp"
+#include "mapping/accuracy_statements.hpp"
+#include "mapping/order_statistics.hpp"
+#include "tests/support/example_report.hpp"
+
+namespace terrawalk {
+namespace {
+
+using test::exampleReport;
+using test::ExampleSurvey;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+constexpr double kRounding = 1e-14;
+
+/// Triangular numbers with alternating signs: nothing symmetric that could hide a wrong term.
+std::vector<double> unevenDifferences(int n) {
+    std::vector<double> d;
+    for (int i = 0; i < n; ++i) d.push_back((i % 3 == 0 ? -1.0 : 1.0) * 0.01 * i * (i + 1) / 2.0 + 0.003);
+    return d;
+}
+
+Residual heightResidual(std::string mark, double d_u_m, MarkRole role = MarkRole::Check,
+                        Stage stage = Stage::Surface, Quantity quantity = Quantity::SurfaceHeight) {
+    Residual r;
+    r.stage = stage;
+    r.quantity = quantity;
+    r.mark = std::move(mark);
+    r.role = role;
+    r.difference_enu_m.z() = d_u_m;
+    return r;
+}
+
+TEST(ErrorStatistics, AreThoseOfAHandWorkedExample) {
+    // d = -2 0 1 5 (mm would do as well): sum 4, squares 30, deviations from 1: 9 1 0 16.
+    const ErrorStatistics s = errorStatistics(std::vector<double>{5.0, -2.0, 0.0, 1.0}, 1);
+    EXPECT_EQ(s.n, 4U);
+    EXPECT_EQ(s.marks, 4U);
+    EXPECT_DOUBLE_EQ(s.mean_m, 1.0);
+    EXPECT_DOUBLE_EQ(s.sd_m.value(), std::sqrt(26.0 / 3.0));
+    EXPECT_DOUBLE_EQ(s.rmse_m, std::sqrt(7.5));
+    EXPECT_DOUBLE_EQ(s.mae_m, 2.0);
+    EXPECT_DOUBLE_EQ(s.median_m, 0.5);
+    EXPECT_DOUBLE_EQ(s.nmad_m, 1.4826 * 1.5);  // |d - 0.5| = 0.5 0.5 2.5 4.5
+    EXPECT_DOUBLE_EQ(s.largest_m, 5.0);
+    EXPECT_FALSE(s.rmse_95);
+}
+
+TEST(ErrorStatistics, KeepTheSignOfTheLargest) {
+    EXPECT_EQ(errorStatistics(std::vector<double>{0.1, -0.3, 0.2}, 1).largest_m, -0.3);
+}
+
+TEST(ErrorStatistics, OfOneDifferenceHaveNoSpread) {
+    const ErrorStatistics s = errorStatistics(std::vector<double>{-0.25}, 1);
+    EXPECT_FALSE(s.sd_m);
+    EXPECT_FALSE(s.rmse_95);
+    EXPECT_EQ(s.rmse_m, 0.25);
+    EXPECT_EQ(s.nmad_m, 0.0);
+    EXPECT_EQ(s.median_m, -0.25);
+}
+
+TEST(ErrorStatistics, RmseIsMeanAndSpreadTogether) {
+    for (const int n : {2, 3, 10, 101}) {
+        const ErrorStatistics s = errorStatistics(unevenDifferences(n), 1);
+        const double share = (n - 1.0) / n;
+        const double together = s.mean_m * s.mean_m + *s.sd_m * *s.sd_m * share;
+        EXPECT_NEAR(s.rmse_m * s.rmse_m / together, 1.0, 8 * n * 2.2e-16) << n;
+    }
+}
+
+TEST(ErrorStatistics, NmadIsTheSigmaOfANormalSampleWhateverItsOutliers) {
+    // Quantiles of the standard normal distribution at (i + 0.5) / 9; the outermost two replaced by blunders.
+    const std::vector<double> d{-50.0,     -0.9674216, -0.5894558, -0.2822161, 0.0,
+                                0.2822161, 0.5894558,  0.9674216,  80.0};
+    const ErrorStatistics s = errorStatistics(d, 1);
+    // The median of |d| is 0.5895; 0.6745 would be that of an endless sample.
+    EXPECT_NEAR(s.nmad_m, 1.4826 * 0.5894558, kRounding);
+    EXPECT_GT(*s.sd_m, 30.0);
+}
+
+TEST(ErrorStatistics, IntervalComesFromTheSeedAloneAndHoldsTheRmse) {
+    const auto d = unevenDifferences(40);
+    const ErrorStatistics a = errorStatistics(d, 9), b = errorStatistics(d, 9), c = errorStatistics(d, 10);
+    EXPECT_EQ(a.rmse_95->low_m, b.rmse_95->low_m);
+    EXPECT_EQ(a.rmse_95->high_m, b.rmse_95->high_m);
+    EXPECT_NE(a.rmse_95->low_m, c.rmse_95->low_m);
+    EXPECT_LT(a.rmse_95->low_m, a.rmse_m);
+    EXPECT_GT(a.rmse_95->high_m, a.rmse_m);
+}
+
+TEST(ErrorStatistics, IntervalAgreesWithTheNormalTheoryOfASquare) {
+    // For n squares of a normal variable the bootstrap's spread of the mean square is sd(d^2) / sqrt(n). With
+    // the quantiles of a normal sample, n = 400: sd(d^2) = sqrt 2 within 4 %, so the interval of the RMSE is
+    // 1 +- 1.96 / sqrt(2 n) = 1 +- 0.0693. Tolerance: that 4 %, and 3 % for 4000 resamples.
+    std::vector<double> d;
+    for (int i = 0; i < 400; ++i) {
+        const double p = (i + 0.5) / 400.0;
+        double low = -6.0, high = 6.0;
+        for (int k = 0; k < 60; ++k) {
+            const double middle = 0.5 * (low + high);
+            (0.5 * std::erfc(-middle / std::sqrt(2.0)) < p ? low : high) = middle;
+        }
+        d.push_back(low);
+    }
+    const ErrorStatistics s = errorStatistics(d, 3);
+    EXPECT_NEAR(s.rmse_95->high_m - s.rmse_95->low_m, 2.0 * 0.0693, 0.07 * 2.0 * 0.0693);
+}
+
+TEST(ErrorStatistics, IntervalOfEqualErrorsIsAPoint) {
+    const ErrorStatistics s = errorStatistics(std::vector<double>{0.25, -0.25, 0.25, 0.25, -0.25}, 1);
+    EXPECT_DOUBLE_EQ(s.rmse_95->low_m, 0.25);
+    EXPECT_DOUBLE_EQ(s.rmse_95->high_m, 0.25);
+}
+
+TEST(ErrorStatistics, RepeatsOverOneMarkDoNotNarrowTheInterval) {
+    std::vector<MarkDifference> once, tenfold;
+    const auto d = unevenDifferences(12);
+    for (std::size_t mark = 0; mark < d.size(); ++mark) {
+        once.push_back({fmt::format("P{}", mark), d[mark]});
+        for (int repeat = 0; repeat < 10; ++repeat) tenfold.push_back(once.back());
+    }
+    const ErrorStatistics a = errorStatistics(once, 5), b = errorStatistics(tenfold, 5);
+    EXPECT_EQ(b.n, 120U);
+    EXPECT_EQ(b.marks, 12U);
+    EXPECT_NEAR(a.rmse_95->low_m, b.rmse_95->low_m, kRounding);
+    EXPECT_NEAR(a.rmse_95->high_m, b.rmse_95->high_m, kRounding);
+}
+
+TEST(ErrorStatistics, FourMarksAreTooFewForAnInterval) {
+    std::vector<MarkDifference> differences;
+    for (int i = 0; i < 40; ++i) differences.push_back({fmt::format("P{}", i % 4), 0.01 * i});
+    EXPECT_FALSE(errorStatistics(differences, 1).rmse_95);
+}
+
+TEST(OrderStatistics, QuantilesLieBetweenNeighbours) {
+    const std::vector<double> sorted{1.0, 2.0, 4.0};
+    EXPECT_EQ(quantileOfSorted(sorted, 0.0), 1.0);
+    EXPECT_EQ(quantileOfSorted(sorted, 0.5), 2.0);
+    EXPECT_EQ(quantileOfSorted(sorted, 0.75), 3.0);
+    EXPECT_EQ(quantileOfSorted(sorted, 1.0), 4.0);
+    EXPECT_EQ(median({3.0, 1.0}), 2.0);
+}
+
+TEST(MarkError, JoinsAsInTheStandardsExample) {
+    // ASPRS Edition 2, table 7.4: fit 1.00 cm, check marks 2.0 cm.
+    EXPECT_NEAR(rmseWithMarkError_m(0.0100, 0.020), 0.0224, 0.00005);
+}
+
+TEST(AccuracyGroups, HorizontalIsTheRootOfBothAxesSquared) {
+    std::vector<Residual> residuals;
+    const auto d = unevenDifferences(9);
+    for (std::size_t i = 0; i < d.size(); ++i) {
+        Residual r = heightResidual(fmt::format("P{}", i), 0.1, MarkRole::Check, Stage::Fused,
+                                    Quantity::ArrayPosition);
+        r.difference_enu_m = {d[i], 0.5 * d[d.size() - 1 - i], 0.1};
+        residuals.push_back(r);
+    }
+    const AccuracyGroup group = accuracyGroups(residuals, 1).at(0);
+    EXPECT_NEAR(group.horizontal->rmse_m, std::hypot(group.east->rmse_m, group.north->rmse_m), kRounding);
+    EXPECT_GT(group.horizontal->mean_m, std::hypot(group.east->mean_m, group.north->mean_m));
+}
+
+TEST(AccuracyGroups, NeverCountWhatTheEstimatorWasTiedTo) {
+    std::vector<Residual> residuals{heightResidual("P1", 0.2, MarkRole::Control),
+                                    heightResidual("P2", 9.0, MarkRole::Control)};
+    residuals[1].used_by_estimator = true;
+    const auto groups = accuracyGroups(residuals, 1);
+    ASSERT_EQ(groups.size(), 1U);
+    EXPECT_EQ(groups[0].up->n, 1U);
+    EXPECT_EQ(groups[0].up->rmse_m, 0.2);
+    residuals[0].used_by_estimator = true;
+    EXPECT_THAT(accuracyGroups(residuals, 1), IsEmpty());
+}
+
+TEST(AccuracyGroups, CountEachAxisForItself) {
+    std::vector<Residual> residuals{heightResidual("P1", 0.2), heightResidual("P2", 0.3)};
+    residuals[0].difference_enu_m.x() = 1.0;
+    residuals[1].difference_enu_m.z() = std::numeric_limits<double>::infinity();
+    const auto groups = accuracyGroups(residuals, 1);
+    ASSERT_EQ(groups.size(), 1U);
+    EXPECT_EQ(groups[0].east->n, 1U);
+    EXPECT_FALSE(groups[0].north);
+    EXPECT_FALSE(groups[0].horizontal);
+    EXPECT_EQ(groups[0].up->n, 1U);
+}
+
+TEST(AccuracyGroups, StandInOneOrderWhateverTheOrderOfResiduals) {
+    std::vector<Residual> residuals{
+        heightResidual("a", 1, MarkRole::Control), heightResidual("a", 1),
+        heightResidual("a", 1, MarkRole::Check, Stage::Fused, Quantity::NearestSample),
+        heightResidual("a", 1, MarkRole::Check, Stage::Fused, Quantity::ArrayPosition),
+        heightResidual("a", 1, MarkRole::Check, Stage::BeforeFusion, Quantity::NearestSample)};
+    const auto order = [](const std::vector<AccuracyGroup>& groups) {
+        std::vector<std::tuple<Stage, Quantity, bool>> keys;
+        for (const auto& g : groups) keys.emplace_back(g.stage, g.quantity, g.role == MarkRole::Control);
+        return keys;
+    };
+    const auto keys = order(accuracyGroups(residuals, 1));
+    EXPECT_EQ(keys.size(), 5U);
+    EXPECT_TRUE(std::is_sorted(keys.begin(), keys.end()));
+    std::reverse(residuals.begin(), residuals.end());
+    EXPECT_EQ(order(accuracyGroups(residuals, 1)), keys);
+}
+
+TEST(AccuracyGroups, CoverageCountsHeightsWithinTheirSigmas) {
+    std::vector<Residual> residuals;
+    for (const double d : {0.0, 1.9, -1.95, 1.97, -3.0}) {
+        residuals.push_back(heightResidual(fmt::format("P{}", residuals.size()), d));
+        residuals.back().sigma_enu_m.z() = 1.0;
+    }
+    residuals.push_back(heightResidual("without sigma", 0.0));
+    const SigmaCoverage coverage = accuracyGroups(residuals, 1).at(0).up_coverage.value();
+    EXPECT_EQ(coverage.n, 5U);
+    EXPECT_EQ(coverage.within, 3U);
+}
+
+// ---------------------------------------------------------------------------------------------- statements
+
+TEST(Statements, WithoutMarksSayThatNoAccuracyCanBeStated) {
+    const SurveyReport report =
+        withAccuracy(exampleReport({.fixed_point_runs = 0, .check_marks = 0, .control_marks = 0}));
+    EXPECT_FALSE(report.headline);
+    EXPECT_EQ(report.figures.at(0).value, "not known");
+    EXPECT_THAT(report.statements, Contains(HasSubstr("No accuracy can be stated: the survey has no marks")));
+    EXPECT_THAT(report.limitations, Contains(HasSubstr("no marks measured by total station")));
+    EXPECT_THAT(report.limitations.back(), HasSubstr("GNSS base"));
+}
+
+TEST(Statements, FewCheckMarksAreCalledAReducedNumber) {
+    const SurveyReport report = withAccuracy(exampleReport({.check_marks = 8}));
+    EXPECT_THAT(report.statements,
+                Contains(AllOf(HasSubstr("reduced number of 7 check marks"), HasSubstr("ask for 30"))));
+    EXPECT_THAT(report.limitations, Contains(HasSubstr("small sample")));
+}
+
+TEST(Statements, ThirtyCheckMarksAreEnoughButClaimNoClass) {
+    // K007 misses the surface, so 31 marks give 30 comparisons and 30 give 29.
+    const SurveyReport enough = withAccuracy(exampleReport({.check_marks = 31}));
+    EXPECT_THAT(enough.statements,
+                Contains(AllOf(HasSubstr("Tested with 30"), HasSubstr("No accuracy class is claimed"))));
+    EXPECT_THAT(enough.limitations, Not(Contains(HasSubstr("small sample"))));
+    const SurveyReport few = withAccuracy(exampleReport({.check_marks = 30}));
+    EXPECT_THAT(few.statements, Contains(HasSubstr("reduced number of 29")));
+}
+
+TEST(Statements, ControlMarksAloneCertifyNothing) {
+    const SurveyReport report = withAccuracy(exampleReport({.check_marks = 0}));
+    EXPECT_FALSE(report.headline);
+    EXPECT_FALSE(report.accuracy.empty());
+    EXPECT_EQ(report.figures.at(0).value, "not known");
+    EXPECT_THAT(report.limitations,
+                Contains(AllOf(HasSubstr("No check mark was compared"), HasSubstr("5 control marks"))));
+}
+
+TEST(Statements, NameMarksThatCouldNotBeCompared) {
+    EXPECT_THAT(withAccuracy(exampleReport({})).limitations,
+                Contains("1 check mark lies outside the surface and could not be compared: K007."));
+}
+
+TEST(Statements, CompareBeforeAndAfterAtTheSameMarks) {
+    SurveyReport report;
+    for (const char* mark : {"A", "B", "C"}) {
+        report.marks.push_back({mark, {0, 0, 0}, 0.0, 0.0, MarkRole::Check});
+        const double before_m = *mark == 'C' ? 100.0 : 1.0;
+        report.residuals.push_back(
+            heightResidual(mark, before_m, MarkRole::Check, Stage::BeforeFusion, Quantity::NearestSample));
+        if (*mark != 'C') report.residuals.push_back(heightResidual(mark, 0.25));
+    }
+    EXPECT_THAT(
+        withAccuracy(report).statements,
+        Contains(
+            "Before fusion the height RMSE was 1.000 m (nearest ground point); at the same 2 marks it is "
+            "0.250 m now, 75 % less."));
+}
+
+TEST(Statements, PointOutABlunderAndABias) {
+    SurveyReport report;
+    for (int i = 0; i < 40; ++i) {
+        const std::string mark = fmt::format("K{}", i);
+        report.marks.push_back({mark, {0, 0, 0}, 0.0, 0.0, MarkRole::Check});
+        report.residuals.push_back(heightResidual(mark, i == 17 ? -5.0 : i % 2 == 0 ? 0.1 : -0.1));
+    }
+    EXPECT_THAT(withAccuracy(report).statements, Contains(HasSubstr("K17 is off by -5.000 m")));
+    EXPECT_THAT(withAccuracy(report).statements, Not(Contains(HasSubstr("on average"))));
+    for (Residual& r : report.residuals) r.difference_enu_m.z() = r.mark == "K1" ? 0.9 : 1.0;
+    EXPECT_THAT(withAccuracy(report).statements, Contains(HasSubstr("too high on average")));
+    EXPECT_THAT(withAccuracy(report).statements, Not(Contains(HasSubstr("blunder"))));
+}
+
+TEST(Statements, TiedComparisonsAreNamedAsNotCounted) {
+    SurveyReport report = exampleReport({});
+    report.residuals.front().used_by_estimator = true;
+    EXPECT_THAT(withAccuracy(report).limitations, Contains(HasSubstr("tied to the mark in 1 comparison;")));
+}
+
+}  // namespace
+}  // namespace terrawalk

@@ -1,0 +1,154 @@
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <cstring>
+#include <mutex>
+#include <stdexcept>
+
+#include "app/pipeline/jobs.hpp"
+#include "app/pipeline/process.hpp"
+
+namespace terrawalk {
+namespace {
+
+SimulationOptions smallSurvey() {
+    SimulationOptions options;
+    options.seed = 11;
+    options.area_east_m = 15;
+    options.area_north_m = 15;
+    options.line_spacing_m = 2;
+    options.fixed_point_runs = 2;
+    options.fixed_point_epochs = 120;
+    options.area_epochs = 1200;
+    options.control_stops = 2;
+    options.check_points = 12;
+    return options;
+}
+
+SimulatedSurvey simulated(const SimulationOptions& options) {
+    SilentProgress silent;
+    auto made = simulateSurvey(options, silent, {});
+    if (!made) throw std::runtime_error(made.error().text());
+    return std::move(*made);
+}
+
+Products processed(const Survey& survey, const PipelineConfig& config) {
+    SilentProgress silent;
+    auto products = process(survey, config, silent, {});
+    if (!products) throw std::runtime_error(products.error().text());
+    return std::move(*products);
+}
+
+// Exact sensors on an exact plane: every cell of the DEM lies on it. What stays is the rounding of float
+// heights.
+TEST(Process, ARampSurvivesFromTheLogsToTheDem) {
+    SimulationOptions options = smallSurvey();
+    options.terrain = SimulatedTerrain::Ramp;
+    options.faults = FaultLevel::None;
+    options.noise_scale = 0;
+    options.gnss = GnssMode::Rtk;
+    SimulatedSurvey ramp = simulated(options);
+    ramp.survey.crs.clear();
+    // Without a barometer raw heights are those of the GNSS receiver, exact here. Barometric ones would start
+    // from the height of the mark, and the tilted range finder sees the slope beside it.
+    for (terrawalk::Run& run : ramp.survey.runs) run.log.column(Channel::Pressure).clear();
+    PipelineConfig config;
+    config.fusion.method = FusionMethod::Raw;
+    const Products products = processed(ramp.survey, config);
+    const GridGeometry& g = products.dem.geometry;
+    std::size_t compared = 0;
+    for (std::size_t row = 0; row < g.rows; ++row) {
+        for (std::size_t column = 0; column < g.columns; ++column) {
+            const float height = products.dem.at(row, column);
+            if (std::isnan(height)) continue;
+            ++compared;
+            const double plane_m = ramp.terrain_height_m(g.centreX(column), g.centreY(row));
+            EXPECT_NEAR(height, plane_m, 1e-6 + 1e-7 * std::abs(plane_m));
+        }
+    }
+    EXPECT_GT(compared, 300u);
+}
+
+TEST(Process, CheckMarksNeverTouchTheProducts) {
+    SimulatedSurvey s = simulated(smallSurvey());
+    const Products before = processed(s.survey, {});
+    for (ControlMark& mark : s.survey.marks) {
+        if (mark.role == MarkRole::Check) mark.enu_m += Eigen::Vector3d(0.7, -0.4, 5.0);
+    }
+    const Products after = processed(s.survey, {});
+    EXPECT_EQ(before.dem.heights_m.size(), after.dem.heights_m.size());
+    EXPECT_EQ(std::memcmp(before.dem.heights_m.data(), after.dem.heights_m.data(),
+                          before.dem.heights_m.size() * sizeof(float)),
+              0);
+    EXPECT_NE(before.report.figures.at(0).value, after.report.figures.at(0).value);
+}
+
+TEST(Process, OneThreadGivesTheBytesOfMany) {
+    const SimulatedSurvey s = simulated(smallSurvey());
+    const Products many = processed(s.survey, {});
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    const Products single = processed(s.survey, {});
+    ASSERT_EQ(many.dem.heights_m.size(), single.dem.heights_m.size());
+    EXPECT_EQ(std::memcmp(many.dem.heights_m.data(), single.dem.heights_m.data(),
+                          many.dem.heights_m.size() * sizeof(float)),
+              0);
+}
+
+TEST(Process, FusionBringsTheTrackNearerToTheTruthThanTheSensorsAre) {
+    double raw_m2 = 0;
+    double fused_m2 = 0;
+    for (const std::uint64_t seed : {31, 32, 33}) {
+        SimulationOptions options = smallSurvey();
+        options.seed = seed;
+        const SimulatedSurvey s = simulated(options);
+        PipelineConfig raw;
+        raw.fusion.method = FusionMethod::Raw;
+        const auto squaredError = [&](const Products& products) {
+            double sum = 0;
+            for (std::size_t run = 0; run < s.truth.size(); ++run) {
+                for (std::size_t i = 0; i < s.truth[run].epochs.size(); ++i) {
+                    sum += (products.trajectories[run].epochs[i].position_enu_m -
+                            s.truth[run].epochs[i].position_enu_m)
+                               .squaredNorm();
+                }
+            }
+            return sum;
+        };
+        raw_m2 += squaredError(processed(s.survey, raw));
+        fused_m2 += squaredError(processed(s.survey, {}));
+    }
+    EXPECT_LT(fused_m2, raw_m2);
+}
+
+TEST(Process, AStopRequestEndsIt) {
+    const SimulatedSurvey s = simulated(smallSurvey());
+    std::stop_source stop;
+    stop.request_stop();
+    SilentProgress silent;
+    const auto products = process(s.survey, {}, silent, stop.get_token());
+    ASSERT_FALSE(products);
+    EXPECT_EQ(products.error().kind, ErrorKind::Cancelled);
+}
+
+TEST(Process, ProgressStaysInRangeAndEndsAtOne) {
+    class Recorder final : public Progress {
+      public:
+        void report(double fraction, std::string_view) override {
+            const std::lock_guard lock(mutex_);
+            EXPECT_GE(fraction, 0.0);
+            EXPECT_LE(fraction, 1.0 + 1e-12);
+            last_ = fraction;
+        }
+        void message(Severity, std::string_view) override {}
+        std::mutex mutex_;
+        double last_ = 0.0;
+    };
+    const SimulatedSurvey s = simulated(smallSurvey());
+    Recorder recorder;
+    ASSERT_TRUE(process(s.survey, {}, recorder, {}));
+    EXPECT_NEAR(recorder.last_, 1.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace terrawalk
