@@ -494,12 +494,20 @@ std::string surveyMap(const SurveyReport& report) {
     return svg.str();
 }
 
+Quantity plottedHeights(const SurveyReport& report) {
+    const bool has_surface =
+        std::any_of(report.residuals.begin(), report.residuals.end(),
+                    [](const Residual& r) { return r.quantity == Quantity::SurfaceHeight; });
+    return has_surface ? Quantity::SurfaceHeight : Quantity::NearestSample;
+}
+
 std::string heightErrorPlot(const SurveyReport& report) {
+    const Quantity quantity = plottedHeights(report);
     std::vector<Column> columns;
     for (const ControlMark& mark : report.marks) {
         Column column{mark.name, mark.role, {}};
         for (const Residual& r : report.residuals) {
-            if (r.mark != mark.name || r.quantity == Quantity::ArrayPosition || r.used_by_estimator) continue;
+            if (r.mark != mark.name || r.quantity != quantity || r.used_by_estimator) continue;
             if (std::isfinite(r.difference_enu_m.z())) column.values[r.stage] = r.difference_enu_m.z();
         }
         if (!column.values.empty()) columns.push_back(std::move(column));

@@ -16,7 +16,10 @@ namespace terrawalk {
 /// Tracks and marks to scale in the local frame, with the height error at each mark as a bar.
 [[nodiscard]] std::string surveyMap(const SurveyReport& report);
 
-/// Height error at each mark before fusion, fused, and of the surface; check marks first.
+/// What the next plot compares: surfaces where there are any, nearest ground points otherwise.
+[[nodiscard]] Quantity plottedHeights(const SurveyReport& report);
+
+/// Height error at each mark, before and after fusion, by one measure; check marks first.
 [[nodiscard]] std::string heightErrorPlot(const SurveyReport& report);
 
 /// Height error below the array at each stand on a mark.

@@ -205,8 +205,11 @@ std::string mapSection(const SurveyReport& report) {
 std::string errorSection(const SurveyReport& report) {
     std::string out =
         figure(heightErrorPlot(report),
-               "Height at each mark less the mark's own: nearest ground point before and after fusion, "
-               "and the surface.");
+               plottedHeights(report) == Quantity::SurfaceHeight
+                   ? "Height of the surface at each mark less the mark's own: made from the sensors as they "
+                     "are, and "
+                     "after fusion."
+                   : "Height of the nearest ground point less the mark's own, before and after fusion.");
     const std::string plan =
         figure(planErrorPlot(report), "Position below the array less the mark, seen from above.");
     std::string spread;

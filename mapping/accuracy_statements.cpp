@@ -66,12 +66,10 @@ const AccuracyGroup* headlineOf(const SurveyReport& report) {
     return report.headline ? &report.accuracy.at(*report.headline) : nullptr;
 }
 
-/// The same marks before fusion, by the measure that comes nearest to the group's.
+/// The same marks before fusion, by the same measure.
 const AccuracyGroup* beforeFusion(const std::vector<AccuracyGroup>& groups, const AccuracyGroup& after) {
     if (after.stage == Stage::BeforeFusion) return nullptr;
-    const Quantity quantity =
-        after.quantity == Quantity::ArrayPosition ? Quantity::ArrayPosition : Quantity::NearestSample;
-    return findGroup(groups, Stage::BeforeFusion, quantity, after.role);
+    return findGroup(groups, Stage::BeforeFusion, after.quantity, after.role);
 }
 
 std::size_t markCount(const SurveyReport& report, MarkRole role) {

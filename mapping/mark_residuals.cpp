@@ -155,15 +155,15 @@ MarkResiduals nearestSampleResiduals(const Survey& survey, const std::vector<Gro
 }
 
 MarkResiduals surfaceResiduals(const std::vector<ControlMark>& marks, const SurfaceHeightAt& surface_height,
-                               const std::set<std::string>& tied_marks) {
+                               Stage stage, const std::set<std::string>& tied_marks) {
     MarkResiduals out;
     for (const ControlMark& mark : marks) {
         const std::optional<double> height_m = surface_height(mark);
         if (!height_m || !std::isfinite(*height_m)) {
-            out.missing.push_back({Stage::Surface, Quantity::SurfaceHeight, mark.name, mark.role, {}});
+            out.missing.push_back({stage, Quantity::SurfaceHeight, mark.name, mark.role, {}});
             continue;
         }
-        Residual residual = residualAt(mark, Stage::Surface, Quantity::SurfaceHeight);
+        Residual residual = residualAt(mark, stage, Quantity::SurfaceHeight);
         residual.difference_enu_m.z() = *height_m - mark.enu_m.z();
         residual.used_by_estimator = tied_marks.contains(mark.name);
         out.residuals.push_back(std::move(residual));

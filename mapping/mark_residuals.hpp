@@ -51,7 +51,7 @@ struct NearestSampleOptions {
 using SurfaceHeightAt = std::function<std::optional<double>(const ControlMark&)>;
 /// Height of the surface at each mark. No sigma is predicted yet.
 [[nodiscard]] MarkResiduals surfaceResiduals(const std::vector<ControlMark>& marks,
-                                             const SurfaceHeightAt& surface_height,
+                                             const SurfaceHeightAt& surface_height, Stage stage,
                                              const std::set<std::string>& tied_marks);
 
 }  // namespace terrawalk

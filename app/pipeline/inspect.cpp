@@ -164,7 +164,7 @@ std::string toText(const LogSummary& s) {
     }
     if (s.read_report.cut_off_line > 0) line("  cut off   line {}, dropped", s.read_report.cut_off_line);
     for (const SensorSummary& sensor : s.sensors) {
-        line("  {:<14}{:>8} epochs ({:>5.1f} %) {:>6.2f} Hz, longest gap {:>6.1f} s, {} {:.6g} to {:.6g}",
+        line("  {:<14}{:>8} epochs ({:>5.1f} %) {:>6.2f} Hz, longest gap {:>6.1f} s, {} {:.9g} to {:.9g}",
              sensor.sensor, sensor.epochs,
              100.0 * static_cast<double>(sensor.epochs) /
                  static_cast<double>(std::max<std::size_t>(s.epochs, 1)),

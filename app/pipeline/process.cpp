@@ -213,6 +213,71 @@ Error noGroundPoints(const Survey& survey, const std::vector<GroundPoint>& point
         .value();
 }
 
+struct Surface {
+    std::vector<GroundPoint> ground_points;  ///< all of them, thinned
+    std::size_t carrying_points = 0;
+    DelaunayTin tin;
+};
+
+Result<Surface> makeSurface(const Survey& survey, const std::vector<GroundPoint>& ground_points,
+                            const SurfaceOptions& options, const MapProjection& projection,
+                            Progress& progress, const std::stop_token& stop) {
+    std::vector<GroundPoint> thinned = thinGroundPoints(ground_points, options.thinning_cell_m);
+    const auto points = surfacePoints(survey, thinned, options.fixed_point_runs, projection);
+    if (!points) return tl::unexpected(points.error());
+    if (points->size() < 3) return tl::unexpected(noGroundPoints(survey, thinned));
+    auto tin = DelaunayTin::build(*points, options.tin, progress, stop);
+    if (!tin) {
+        Error error = tin.error();
+        if (error.kind == ErrorKind::BadData) error.file = survey.project_file;
+        return tl::unexpected(error);
+    }
+    return Surface{std::move(thinned), points->size(), std::move(*tin)};
+}
+
+/// Height of the surface at a mark, taken back from the map's height datum to the mark's.
+SurfaceHeightAt heightOf(const DelaunayTin& tin, const MapProjection& projection) {
+    return [&](const ControlMark& mark) -> std::optional<double> {
+        const auto at = projection.toMap(mark.enu_m);
+        if (!at) return std::nullopt;
+        const auto height_m = tin.heightAt(at->x(), at->y());
+        if (!height_m) return std::nullopt;
+        return *height_m - at->z() + mark.enu_m.z();
+    };
+}
+
+/// The sensors as they are against the marks, by the same measures as the fused track and its surface, so
+/// that before and after can be compared.
+Result<Comparison> compareBeforeFusion(const Survey& survey, const PipelineConfig& config,
+                                       const MapProjection& projection, Progress& progress,
+                                       const std::stop_token& stop) {
+    FusionOptions as_measured = config.fusion;
+    as_measured.method = FusionMethod::Raw;
+    const auto track = trackGround(survey, as_measured, config.ground, progress, stop);
+    if (!track) return tl::unexpected(track.error());
+    Comparison comparison;
+    compareTrack(survey, *track, config, Stage::BeforeFusion, false, comparison);
+    if (config.fusion.method == FusionMethod::Raw) return comparison;  // its surface is the product itself
+    SilentProgress silent;
+    const auto surface = makeSurface(survey, track->points, config.surface, projection, silent, stop);
+    if (surface) {
+        // Where this surface ends says nothing of the product, so what it misses is not told.
+        comparison.add(
+            {surfaceResiduals(survey.marks, heightOf(surface->tin, projection), Stage::BeforeFusion, {})
+                 .residuals,
+             {}});
+    } else if (surface.error().kind != ErrorKind::BadData) {
+        return tl::unexpected(surface.error());
+    }
+    return comparison;
+}
+
+std::string methodName(const FusionOptions& options) {
+    if (options.method == FusionMethod::Raw) return "raw sensors, no fusion";
+    return options.smooth ? "9-state unscented Kalman filter, Rauch-Tung-Striebel smoothed"
+                          : "9-state unscented Kalman filter";
+}
+
 }  // namespace
 
 Result<Products> process(const Survey& survey, const PipelineConfig& config, Progress& progress,
@@ -228,57 +293,35 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     auto fused = trackGround(survey, config.fusion, config.ground, fusing, stop);
     if (!fused) return tl::unexpected(fused.error());
 
-    const bool raw_only = config.fusion.method == FusionMethod::Raw;
-    Comparison comparison;
-    {
-        FusionOptions as_measured = config.fusion;
-        as_measured.method = FusionMethod::Raw;
-        PartialProgress following(progress, 0.5, 0.7);
-        const auto raw = trackGround(survey, as_measured, config.ground, following, stop);
-        if (!raw) return tl::unexpected(raw.error());
-        compareTrack(survey, *raw, config, Stage::BeforeFusion, false, comparison);
-    }
-    if (!raw_only) compareTrack(survey, *fused, config, Stage::Fused, true, comparison);
+    PartialProgress following(progress, 0.5, 0.7);
+    auto comparison = compareBeforeFusion(survey, config, *projection, following, stop);
+    if (!comparison) return tl::unexpected(comparison.error());
+    const bool tied = config.fusion.method != FusionMethod::Raw;
+    if (tied) compareTrack(survey, *fused, config, Stage::Fused, true, *comparison);
 
-    progress.report(0.7, "thinning ground points");
-    fused->points = thinGroundPoints(std::move(fused->points), config.surface.thinning_cell_m);
-    const auto points = surfacePoints(survey, fused->points, config.surface.fixed_point_runs, *projection);
-    if (!points) return tl::unexpected(points.error());
-    if (points->size() < 3) return tl::unexpected(noGroundPoints(survey, fused->points));
-
-    PartialProgress triangulating(progress, 0.72, 0.85);
-    const auto tin = DelaunayTin::build(*points, config.surface.tin, triangulating, stop);
-    if (!tin) {
-        Error error = tin.error();
-        if (error.kind == ErrorKind::BadData) error.file = survey.project_file;
-        return tl::unexpected(error);
-    }
+    PartialProgress triangulating(progress, 0.7, 0.85);
+    progress.report(0.7, "triangulating");
+    auto surface = makeSurface(survey, fused->points, config.surface, *projection, triangulating, stop);
+    if (!surface) return tl::unexpected(surface.error());
+    const DelaunayTin& tin = surface->tin;
+    comparison->add(
+        surfaceResiduals(survey.marks, heightOf(tin, *projection), Stage::Surface,
+                         tied ? tiedMarks(survey, config.fusion.stands) : std::set<std::string>{}));
 
     Products products;
     products.used = config;
-    products.used.surface.tin.longest_edge_m = tin->longestEdge_m();
+    products.used.surface.tin.longest_edge_m = tin.longestEdge_m();
     if (config.surface.cell_m == 0.0) {
-        products.used.surface.cell_m = suggestCellSize(tin->area_m2(), tin->mesh().vertices_m.size());
+        products.used.surface.cell_m = suggestCellSize(tin.area_m2(), tin.mesh().vertices_m.size());
     }
-    const auto geometry = gridCovering(tin->mesh(), products.used.surface.cell_m);
+    const auto geometry = gridCovering(tin.mesh(), products.used.surface.cell_m);
     if (!geometry) return tl::unexpected(geometry.error());
     PartialProgress gridding(progress, 0.85, 1.0);
-    auto dem = rasterize(tin->mesh(), *geometry, gridding, stop);
+    auto dem = rasterize(tin.mesh(), *geometry, gridding, stop);
     if (!dem) return tl::unexpected(dem.error());
     products.dem = std::move(*dem);
 
-    comparison.add(surfaceResiduals(
-        survey.marks,
-        [&](const ControlMark& mark) -> std::optional<double> {
-            const auto at = projection->toMap(mark.enu_m);
-            if (!at) return std::nullopt;
-            const auto height_m = tin->heightAt(at->x(), at->y());
-            if (!height_m) return std::nullopt;
-            return *height_m - at->z() + mark.enu_m.z();  // back from the map's height datum to the mark's
-        },
-        raw_only ? std::set<std::string>{} : tiedMarks(survey, config.fusion.stands)));
-
-    products.ground_points = std::move(fused->points);
+    products.ground_points = std::move(surface->ground_points);
     SurveyReport& report = products.report;
     report.survey_name = survey.name;
     report.program_version = versionNumber();
@@ -287,23 +330,21 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     report.settings.push_back({"survey.crs", survey.crs.empty() ? "none" : survey.crs, projection->name()});
     report.settings.push_back(
         {"survey.vertical_datum", survey.vertical_datum, projection->heightReference()});
-    report.method = raw_only               ? "raw sensors, no fusion"
-                    : config.fusion.smooth ? "9-state unscented Kalman filter, Rauch-Tung-Striebel smoothed"
-                                           : "9-state unscented Kalman filter";
+    report.method = methodName(config.fusion);
     for (std::size_t i = 0; i < survey.runs.size(); ++i) {
         report.runs.push_back(
             reportRun(survey.runs[i], fused->runs[i], pointsOfRun(products.ground_points, *fused, i)));
     }
-    report.surface = reportSurface(*tin, products.dem, *projection, points->size());
+    report.surface = reportSurface(tin, products.dem, *projection, surface->carrying_points);
     if (report.surface.cells_with_height == 0) {
         return badData(
             fmt::format("no cell of {:g} m has its centre on the surface", products.dem.geometry.cell_m),
             survey.project_file, 0, "choose a smaller surface.cell_m");
     }
     report.marks = survey.marks;
-    report.residuals = std::move(comparison.residuals);
-    report.missing_residuals = std::move(comparison.missing);
-    auto relief = reliefPicture(*tin, *projection, products.ground_points);
+    report.residuals = std::move(comparison->residuals);
+    report.missing_residuals = std::move(comparison->missing);
+    auto relief = reliefPicture(tin, *projection, products.ground_points);
     if (!relief) return tl::unexpected(relief.error());
     report.relief = std::move(*relief);
     report.limitations = sharedLimitations(fused->runs);
@@ -312,7 +353,7 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
                            projection->warnings().end());
     report = withAccuracy(std::move(report));
 
-    products.surface = tin->mesh();
+    products.surface = tin.mesh();
     products.crs_wkt2 = projection->wkt2();
     for (FusedRun& run : fused->runs) products.trajectories.push_back(std::move(run.trajectory));
     progress.report(1.0, "processed");

@@ -273,14 +273,13 @@ TEST(Statements, CompareBeforeAndAfterAtTheSameMarks) {
         report.marks.push_back({mark, {0, 0, 0}, 0.0, 0.0, MarkRole::Check});
         const double before_m = *mark == 'C' ? 100.0 : 1.0;
         report.residuals.push_back(
-            heightResidual(mark, before_m, MarkRole::Check, Stage::BeforeFusion, Quantity::NearestSample));
+            heightResidual(mark, before_m, MarkRole::Check, Stage::BeforeFusion, Quantity::SurfaceHeight));
         if (*mark != 'C') report.residuals.push_back(heightResidual(mark, 0.25));
     }
     EXPECT_THAT(
         withAccuracy(report).statements,
-        Contains(
-            "Before fusion the height RMSE was 1.000 m (nearest ground point); at the same 2 marks it is "
-            "0.250 m now, 75 % less."));
+        Contains("Before fusion the height RMSE was 1.000 m (surface height); at the same 2 marks it is "
+                 "0.250 m now, 75 % less."));
 }
 
 TEST(Statements, PointOutABlunderAndABias) {

@@ -235,7 +235,7 @@ TEST(SurfaceResiduals, AreExactOnAPlaneAndNameMarksOutside) {
     };
     const auto out =
         surfaceResiduals({mark("on", {4, 8, 1.0}), mark("below", {4, 8, 0.5}), mark("outside", {200, 0, 0})},
-                         plane, {"below"});
+                         plane, Stage::Surface, {"below"});
     ASSERT_EQ(out.residuals.size(), 2U);
     EXPECT_EQ(out.residuals[0].difference_enu_m.z(), 0.0);
     EXPECT_EQ(out.residuals[1].difference_enu_m.z(), 0.5);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <GeographicLib/UTMUPS.hpp>
 #include <cmath>
 #include <cstring>
 #include <mutex>
@@ -65,6 +66,39 @@ TEST(Process, ARampSurvivesFromTheLogsToTheDem) {
             ++compared;
             const double plane_m = ramp.terrain_height_m(g.centreX(column), g.centreY(row));
             EXPECT_NEAR(height, plane_m, 1e-6 + 1e-7 * std::abs(plane_m));
+        }
+    }
+    EXPECT_GT(compared, 300u);
+}
+
+// The same in a projected CRS: each cell is taken back to the local frame by GeographicLib alone, without
+// PROJ.
+TEST(Process, ARampInUtmLiesWhereAnIndependentProjectionPutsIt) {
+    SimulationOptions options = smallSurvey();
+    options.terrain = SimulatedTerrain::Ramp;
+    options.faults = FaultLevel::None;
+    options.noise_scale = 0;
+    options.gnss = GnssMode::Rtk;
+    SimulatedSurvey ramp = simulated(options);
+    ASSERT_EQ(ramp.survey.crs, "EPSG:32649");
+    for (terrawalk::Run& run : ramp.survey.runs) run.log.column(Channel::Pressure).clear();
+    PipelineConfig config;
+    config.fusion.method = FusionMethod::Raw;
+    const Products products = processed(ramp.survey, config);
+    const LocalFrame frame = ramp.survey.frame();
+    const GridGeometry& g = products.dem.geometry;
+    std::size_t compared = 0;
+    for (std::size_t row = 0; row < g.rows; ++row) {
+        for (std::size_t column = 0; column < g.columns; ++column) {
+            const double height_m = products.dem.at(row, column);
+            if (std::isnan(height_m)) continue;
+            ++compared;
+            GeodeticPosition position;
+            GeographicLib::UTMUPS::Reverse(49, true, g.centreX(column), g.centreY(row), position.lat_deg,
+                                           position.lon_deg);
+            position.h_ell_m = frame.zeroPoint().h_ell_m + height_m;
+            const Eigen::Vector3d enu_m = frame.toEnu(position);
+            EXPECT_NEAR(height_m, ramp.terrain_height_m(enu_m.x(), enu_m.y()), 1e-4);
         }
     }
     EXPECT_GT(compared, 300u);

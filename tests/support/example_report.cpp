@@ -121,7 +121,7 @@ void addHeightResiduals(SurveyReport& report, const ExampleSurvey& survey, Rando
     };
     for (const ControlMark& mark : report.marks) {
         const double kept = random.normal(survey.sigma_after_m);
-        add(Stage::BeforeFusion, Quantity::NearestSample, mark, 0.2 + random.normal(survey.sigma_before_m),
+        add(Stage::BeforeFusion, Quantity::SurfaceHeight, mark, 0.2 + random.normal(survey.sigma_before_m),
             kMissing);
         add(Stage::Fused, Quantity::NearestSample, mark, kept, survey.sigma_after_m);
         if (mark.name == "K007") {
