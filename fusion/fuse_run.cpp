@@ -19,7 +19,8 @@ namespace terrawalk {
 
 namespace {
 
-constexpr double kAssumedHeightSigma_m = 10.0;  // where nothing measures height
+// Mean climb of a walk over `BarometerOptions::longest_silence_s`, where all sensors of height are silent.
+constexpr double kClimbSigma_mps = 0.15;
 
 double squared(double x) {
     return x * x;
@@ -43,6 +44,28 @@ double worstDeviation(const StateEstimate& state, const Reading& reading) {
     return worst;
 }
 
+// For how long the readings of a sensor have told the same thing. Silence tells nothing: a gap ends it.
+class Spell {
+  public:
+    void tell(bool so, double time_s, double longest_gap_s) {
+        if (!so) {
+            since_s_ = std::numeric_limits<double>::quiet_NaN();
+        } else if (!(time_s - last_s_ <= longest_gap_s)) {
+            since_s_ = time_s;
+        }
+        last_s_ = so ? time_s : since_s_;
+    }
+    /// Up to a reading at `time_s`; not a number when there is no spell.
+    double lasted(double time_s, double longest_gap_s) const {
+        return time_s - last_s_ <= longest_gap_s ? time_s - since_s_
+                                                 : std::numeric_limits<double>::quiet_NaN();
+    }
+
+  private:
+    double since_s_ = std::numeric_limits<double>::quiet_NaN();
+    double last_s_ = std::numeric_limits<double>::quiet_NaN();
+};
+
 // Takes one run through the filter, epoch by epoch.
 class RunFilter {
   public:
@@ -59,52 +82,69 @@ class RunFilter {
         state_.covariance.diagonal()
             .segment<3>(offset(StateBlock::Acceleration))
             .setConstant(squared(initial.acceleration_sigma_mps2));
-        rejected_since_s_.fill(std::numeric_limits<double>::quiet_NaN());
     }
 
     const StateEstimate& state() const { return state_; }
     const std::vector<Inflation>& inflations() const { return inflations_; }
+    const Vector9d& heightResponse() const { return height_response_; }
+    double bridged_s() const { return bridged_s_; }
     std::vector<SensorUse> sensors() const { return ledger_.uses(); }
 
     /// Nothing, or why the run must be given up.
     std::optional<Error> step(std::size_t epoch) {
         if (epoch > 0) {
             const double dt_s = context_.log.time_s[epoch] - context_.log.time_s[epoch - 1];
-            state_ = predicted(state_, transition(context_.options.process, dt_s));
+            const Transition step = transition(context_.options.process, dt_s);
+            state_ = predicted(state_, step);
+            height_response_ = (step.F * height_response_).eval();
         }
         readEpoch(context_, epoch, state_, memory_, readings_);
         readmit(epoch);
         applyTies(epoch);
         for (const Reading& reading : readings_) applyReading(epoch, reading);
-        if (!context_.reference.has_height) holdHeight();
+        if (!context_.reference.has_height) {
+            holdHeight();
+        } else {
+            holdClimb(epoch);
+        }
         return divergence(epoch);
     }
 
   private:
     double time(std::size_t epoch) const { return context_.log.time_s[epoch]; }
-    double& rejectedSince(Sensor sensor) { return rejected_since_s_[static_cast<std::size_t>(sensor)]; }
+    Spell& rejectionOf(Sensor sensor) { return rejections_[static_cast<std::size_t>(sensor)]; }
+
+    // `from_height_reference`: the row's value moves with what heights are measured from.
+    void update(const LinearRow& row, bool from_height_reference = false) {
+        const double moved = from_height_reference ? row.direction.z() : 0.0;
+        height_response_ +=
+            gain(state_, row) * (moved - row.direction.dot(height_response_.segment<3>(offset(row.block))));
+        state_ = updated(state_, row);
+    }
 
     void applyTies(std::size_t epoch) {
         const std::vector<MarkTie>& ties = context_.reference.ties;
         for (; next_tie_ < ties.size() && ties[next_tie_].epoch == epoch; ++next_tie_) {
             const MarkTie& tie = ties[next_tie_];
             for (int axis = 0; axis < (tie.has_height ? 3 : 2); ++axis) {
-                state_ = updated(state_, {StateBlock::Position, Eigen::Vector3d::Unit(axis),
-                                          tie.array_enu_m[axis], tie.variance_m2[axis]});
+                update({StateBlock::Position, Eigen::Vector3d::Unit(axis), tie.array_enu_m[axis],
+                        tie.variance_m2[axis]});
             }
+            if (tie.has_height) memory_.lastUsed(Sensor::MarkTie) = time(epoch);
             ledger_.use(Sensor::MarkTie, false);
         }
     }
 
-    // Lets a sensor in again that was rejected for so long that the filter must be wrong: the filter's own
-    // variance grows by the square of what it is off.
+    // Lets a sensor in again that was steadily rejected for so long that the filter must be wrong: the
+    // filter's own variance grows by the square of what it is off.
     void readmit(std::size_t epoch) {
         const RobustOptions& robust = context_.options.robust;
         if (!robust.use) return;
         for (const Reading& reading : readings_) {
-            const double since_s = rejectedSince(reading.sensor);
             if (!mayBeReadmitted(reading.sensor) || reading.row_count == 0) continue;
-            if (!(time(epoch) - since_s >= robust.readmit_after_s)) continue;
+            const double rejected_s = rejectionOf(reading.sensor).lasted(time(epoch), robust.longest_gap_s);
+            if (!(rejected_s >= robust.readmit_after_s)) continue;
+            if (worstDeviation(state_, reading) <= robust.gate_sigma) continue;
             Inflation inflation{epoch, reading.rows[0].row.block, Eigen::Vector3d::Zero()};
             for (std::size_t r = 0; r < reading.row_count; ++r) {
                 const LinearRow& row = reading.rows[r].row;
@@ -114,8 +154,6 @@ class RunFilter {
             const int at = offset(inflation.block);
             state_.covariance.block<3, 3>(at, at).diagonal() += inflation.variance;
             inflations_.push_back(inflation);
-            // What was believed of the sensor before says nothing of its error now.
-            memory_.lastUsed(reading.sensor) = -std::numeric_limits<double>::infinity();
         }
     }
 
@@ -128,9 +166,9 @@ class RunFilter {
         const double deviation = robust.use ? worstDeviation(state_, reading) : 0.0;
         const bool outside = deviation > robust.gate_sigma;
         if (reading.sensor == Sensor::GnssPosition) watchGnss(epoch, reading, outside);
+        rejectionOf(reading.sensor).tell(outside, time(epoch), robust.longest_gap_s);
         if (outside) {
             ledger_.reject(reading.sensor, "beyond gate");
-            if (std::isnan(rejectedSince(reading.sensor))) rejectedSince(reading.sensor) = time(epoch);
             return;
         }
         bool down_weighted = false;
@@ -145,14 +183,14 @@ class RunFilter {
                     down_weighted = true;
                 }
             }
-            state_ = updated(state_, row);
+            update(row, reading.sensor == Sensor::Barometer);
         }
         ledger_.use(reading.sensor, down_weighted);
-        rejectedSince(reading.sensor) = std::numeric_limits<double>::quiet_NaN();
         remember(epoch, reading);
     }
 
     void remember(std::size_t epoch, const Reading& reading) {
+        if (reading.sensor == Sensor::MeanFlow) bridged_s_ += time(epoch) - memory_.lastFlow();
         const double since_s = time(epoch) - memory_.lastUsed(reading.sensor);
         memory_.lastUsed(reading.sensor) = time(epoch);
         if (reading.sensor != Sensor::OpticalFlow) return;
@@ -162,9 +200,23 @@ class RunFilter {
         memory_.mean_flow_mps += weight * (flow_mps - memory_.mean_flow_mps);
     }
 
+    // Where nothing measures height it stays near that of the start, by an assumption that errs lastingly.
     void holdHeight() {
-        state_ = updated(state_, {StateBlock::Position, Eigen::Vector3d::UnitZ(),
-                                  context_.reference.start_enu_m.z(), squared(kAssumedHeightSigma_m)});
+        update({StateBlock::Position, Eigen::Vector3d::UnitZ(), context_.reference.start_enu_m.z(),
+                context_.reference.height_reference_variance_m2},
+               true);
+        ledger_.use(Sensor::HeightAssumption, false);
+    }
+
+    // While all that measures height is silent, a walk climbs little.
+    void holdClimb(std::size_t epoch) {
+        const double longest_s = context_.options.barometer.longest_silence_s;
+        const double measured_s =
+            std::max({context_.log.time_s.front(), memory_.lastUsed(Sensor::Barometer),
+                      memory_.lastUsed(Sensor::GnssHeight), memory_.lastUsed(Sensor::MarkTie)});
+        if (time(epoch) - measured_s <= longest_s) return;
+        const double factor = whiteNoiseFactor(longest_s, time(epoch) - time(epoch - 1));
+        update({StateBlock::Velocity, Eigen::Vector3d::UnitZ(), 0.0, factor * squared(kClimbSigma_mps)});
         ledger_.use(Sensor::HeightAssumption, false);
     }
 
@@ -172,13 +224,14 @@ class RunFilter {
         const DivergenceOptions& limits = context_.options.divergence;
         const Eigen::Vector2d apart(innovation(state_, reading.rows[0].row),
                                     innovation(state_, reading.rows[1].row));
-        if (apart.norm() <= limits.largest_gnss_distance_m) {
-            far_since_s_ = std::numeric_limits<double>::quiet_NaN();
-        } else if (std::isnan(far_since_s_)) {
-            far_since_s_ = time(epoch);
-        }
-        const double interval_s = std::isnan(gnss_seen_s_) ? 0.0 : time(epoch) - gnss_seen_s_;
+        const double longest_gap_s = context_.options.robust.longest_gap_s;
+        far_.tell(apart.norm() > limits.largest_gnss_distance_m, time(epoch), longest_gap_s);
+        far_for_s_ = far_.lasted(time(epoch), longest_gap_s);
+        // A position that ends a silence speaks for itself, not for the time that nothing was heard.
+        const double interval_s =
+            std::isnan(gnss_seen_s_) ? 0.0 : std::min(time(epoch) - gnss_seen_s_, longest_gap_s);
         gnss_seen_s_ = time(epoch);
+        if (outside) ++rejected_positions_;
         const double weight = -std::expm1(-interval_s / limits.rejected_window_s);
         rejected_share_ += weight * ((outside ? 1.0 : 0.0) - rejected_share_);
     }
@@ -190,11 +243,11 @@ class RunFilter {
         if (!(sigma_m <= limits.largest_sigma_m)) {
             return diverged(epoch, fmt::format("the position is known to no better than {:.0f} m", sigma_m));
         }
-        if (time(epoch) - far_since_s_ >= limits.patience_s) {
+        if (far_for_s_ >= limits.patience_s) {
             return diverged(epoch, fmt::format("the track is more than {:.0f} m from GNSS for {:.0f} s",
                                                limits.largest_gnss_distance_m, limits.patience_s));
         }
-        if (rejected_share_ > limits.rejected_share) {
+        if (rejected_positions_ >= limits.fewest_rejected && rejected_share_ > limits.rejected_share) {
             return diverged(
                 epoch, fmt::format("{:.0f} % of the GNSS positions of the last {:.0f} s are beyond the gate",
                                    100.0 * rejected_share_, limits.rejected_window_s));
@@ -217,14 +270,22 @@ class RunFilter {
     SensorLedger ledger_;
     std::vector<Reading> readings_;
     std::vector<Inflation> inflations_;
-    std::array<double, kSensorCount> rejected_since_s_{};
+    std::array<Spell, kSensorCount> rejections_{};
+    Vector9d height_response_ = Vector9d::Zero();
     std::size_t next_tie_ = 0;
-    double far_since_s_ = std::numeric_limits<double>::quiet_NaN();
+    Spell far_;
+    double far_for_s_ = std::numeric_limits<double>::quiet_NaN();
     double gnss_seen_s_ = std::numeric_limits<double>::quiet_NaN();
     double rejected_share_ = 0.0;
+    int rejected_positions_ = 0;
+    double bridged_s_ = 0.0;
 };
 
-TrajectoryEpoch trajectoryEpoch(const StateEstimate& state, double time_s, const EpochAttitude& attitude) {
+TrajectoryEpoch trajectoryEpoch(const PackedEstimate& estimate, double height_reference_variance_m2,
+                                double time_s, const EpochAttitude& attitude) {
+    StateEstimate state = unpacked(estimate);
+    const Vector9d lasting = std::sqrt(height_reference_variance_m2) * estimate.height_response;
+    state.covariance += lasting * lasting.transpose();
     constexpr int p = offset(StateBlock::Position);
     constexpr int v = offset(StateBlock::Velocity);
     TrajectoryEpoch epoch;
@@ -241,19 +302,22 @@ TrajectoryEpoch trajectoryEpoch(const StateEstimate& state, double time_s, const
     return epoch;
 }
 
-void noteSensors(const std::vector<SensorUse>& sensors, const std::vector<Inflation>& inflations,
-                 std::vector<std::string>& notes) {
-    for (const SensorUse& use : sensors) {
+void noteSensors(const RunFilter& filter, std::vector<std::string>& notes) {
+    for (const SensorUse& use : filter.sensors()) {
         if (2 * use.used < use.offered) {
             notes.push_back(
                 fmt::format("{}: only {} of {} readings were used", use.sensor, use.used, use.offered));
         }
     }
-    if (!inflations.empty()) {
+    if (filter.bridged_s() > 0.0) {
+        notes.push_back(
+            fmt::format("optical flow bridged by its recent mean for {:.1f} s in all", filter.bridged_s()));
+    }
+    if (!filter.inflations().empty()) {
         notes.push_back(
             fmt::format("a sensor that had been rejected for long was let in again {} times; the track may "
                         "be off before that",
-                        inflations.size()));
+                        filter.inflations().size()));
     }
 }
 
@@ -273,6 +337,7 @@ Result<FusedRun> filteredRun(const Survey& survey, const Run& run, const FusionO
         }
         if (auto error = filter.step(i)) return tl::unexpected<Error>(std::move(*error));
         estimates.push_back(packed(filter.state()));
+        estimates.back().height_response = filter.heightResponse();
     }
     if (options.smooth) {
         progress.report(0.7, "smoothing " + run.id);
@@ -284,15 +349,15 @@ Result<FusedRun> filteredRun(const Survey& survey, const Run& run, const FusionO
     fused.trajectory.run_id = run.id;
     fused.trajectory.epochs.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
-        const StateEstimate state = unpacked(estimates[i]);
-        if (!state.finite()) {
+        if (!unpacked(estimates[i]).finite()) {
             return badData(fmt::format("run {}: the smoother failed at {:.2f} s", run.id, run.log.time_s[i]),
                            run.log.file);
         }
-        fused.trajectory.epochs.push_back(trajectoryEpoch(state, run.log.time_s[i], attitudes[i]));
+        fused.trajectory.epochs.push_back(trajectoryEpoch(
+            estimates[i], reference.height_reference_variance_m2, run.log.time_s[i], attitudes[i]));
     }
     fused.sensors = filter.sensors();
-    noteSensors(fused.sensors, filter.inflations(), fused.notes.details);
+    noteSensors(filter, fused.notes.details);
     return fused;
 }
 

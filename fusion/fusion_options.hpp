@@ -9,7 +9,8 @@ enum class FusionMethod {
     Ukf,  ///< 9-state unscented Kalman filter with a Rauch-Tung-Striebel pass
 };
 
-/// In which epochs the GNSS height enters the filter.
+/// In which epochs the GNSS height enters the filter. Without a barometer in use, and while it is silent for
+/// long, `Rtk` gives way to `Always`, with a note.
 enum class GnssHeightUse {
     Never,
     Rtk,  ///< only when the fix is RTK fixed or RTK float
@@ -51,7 +52,7 @@ struct InitialOptions {
     double velocity_sigma_mps = 1.0;
     double acceleration_sigma_mps2 = 1.0;
     double walking_speed_mps = 1.5;  ///< by which a position ages while nothing measures it
-    double position_sigma_m = 10.0;  ///< around a known start mark, before its ties are applied
+    double position_sigma_m = 10.0;  ///< of the start, before the ties or fixes that tell it are applied
     double still_speed_mps = 0.3;    ///< below this the array counts as standing still
 };
 
@@ -85,6 +86,7 @@ struct BarometerOptions {
     double gust_sigma_m = 0.12;  ///< pressure of wind
     double gust_correlation_s = 4.0;
     double drift_m_per_sqrt_min = 0.08;  ///< random walk since the barometer was zeroed
+    double longest_silence_s = 30.0;     ///< after it GNSS heights of any fix stand in, unless `Never` [s]
 };
 
 struct FlowOptions {
@@ -95,10 +97,12 @@ struct FlowOptions {
     double correlation_s =
         15.0;  ///< for how long errors of scale and heading keep their direction over ground [s]
     double smallest_quality = 1.0;  ///< flow_quality below this is rejected: no texture
-    bool bridge_dropouts = true;    ///< stand in for single missing readings with the recent mean flow
-    double bridge_after_s = 0.6;    ///< without a usable reading [s]
-    double bridge_sigma_mps = 2.0;  ///< of each epoch; the mean errs in the same way for seconds
-    double bridge_memory_s = 5.0;   ///< over which the mean is taken [s]
+    /// Stand in with the recent mean flow while neither flow nor Doppler velocity is used.
+    bool bridge_dropouts = true;
+    double bridge_after_s = 0.6;     ///< without a used reading [s]
+    double bridge_longest_s = 10.0;  ///< since the last used reading; then the walk may be any other [s]
+    double bridge_sigma_mps = 0.3;   ///< of the stand-in, which errs in the same way for `bridge_memory_s`
+    double bridge_memory_s = 5.0;    ///< over which the mean is taken [s]
 };
 
 struct AccelerometerOptions {
@@ -144,6 +148,9 @@ struct RobustOptions {
     double huber_sigma = 2.0;       ///< from here on the weight falls
     double gate_sigma = 5.0;        ///< beyond this a reading is rejected
     double readmit_after_s = 30.0;  ///< a sensor rejected for so long is believed, the filter is not
+    /// Silence of a sensor that ends what its readings told together (how long it is rejected, how long GNSS
+    /// is far from the track) [s].
+    double longest_gap_s = 10.0;
 };
 
 /// When a run is given up with an error instead of drawn.
@@ -153,6 +160,7 @@ struct DivergenceOptions {
     double patience_s = 60.0;     ///< for how long the track may be that far from GNSS [s]
     double rejected_share = 0.8;  ///< of GNSS positions, averaged over `rejected_window_s`
     double rejected_window_s = 300.0;
+    int fewest_rejected = 20;  ///< GNSS positions of the run beyond the gate before their share counts
 };
 
 /// Every parameter of fusion. All sigmas are 1 sigma. Defaults were chosen on simulated surveys (seeds 1 to 3

@@ -1,9 +1,11 @@
 #include "fusion/raw_trajectory.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
 
-#include "fusion/barometer.hpp"
 #include "fusion/sensor_ledger.hpp"
 
 namespace terrawalk {
@@ -14,8 +16,7 @@ double squared(double x) {
     return x * x;
 }
 
-// The latest value of one quantity, and what it is worth at a later time.
-struct Held {
+struct Estimate {
     Eigen::Vector3d value = Eigen::Vector3d::Zero();
     Eigen::Vector3d variance = Eigen::Vector3d::Zero();
 };
@@ -33,10 +34,11 @@ class RawRun {
         position_.variance = reference.start_sigma_m.array().square();
         if (reference.starts_on_mark) position_.variance = reference.ties.front().variance_m2;
         for (std::size_t i = 0; i < log_.size(); ++i) {
-            has_gnss_ = has_gnss_ || (gnssPosition(log_, i, frame_, attitudes_[i].attitude, 0.0) &&
+            has_gnss_ = has_gnss_ || (gnssPosition(log_, i, frame_, attitudes_[i], 0.0) &&
                                       gnssQuality(log_, i, options_.gnss).rejection.empty());
         }
         velocity_.variance.setConstant(squared(options.initial.walking_speed_mps));
+        horizontal_time_s_ = height_time_s_ = log_.time_s.front();
     }
 
     bool hasGnss() const { return has_gnss_; }
@@ -46,24 +48,27 @@ class RawRun {
         const double dt_s = i == 0 ? 0.0 : log_.time_s[i] - log_.time_s[i - 1];
         const Eigen::Vector3d velocity_before = velocity_.value;
         takeVelocity(i);
-        if (has_gnss_) {
-            position_.variance.head<2>().array() += squared(options_.initial.walking_speed_mps * dt_s);
-        } else {
+        if (!has_gnss_) {
             position_.value.head<2>() += 0.5 * dt_s * (velocity_before + velocity_.value).head<2>();
             // Errors of scale and heading keep their direction for the correlation time of the flow.
             position_.variance.head<2>() +=
                 dt_s * std::max(dt_s, 2.0 * options_.flow.correlation_s) * velocity_.variance.head<2>();
         }
-        const bool measured_height = takeHeight(i);
-        if (!measured_height)
-            position_.variance.z() += squared(0.5 * options_.initial.walking_speed_mps * dt_s);
+        takeHeight(i);
         takePosition(i);
+        // What is held ages: the array may have walked away from it.
+        const double speed_mps = options_.initial.walking_speed_mps;
+        const double horizontal_age_s = has_gnss_ ? log_.time_s[i] - horizontal_time_s_ : 0.0;
+        const double height_age_s = log_.time_s[i] - height_time_s_;
+        Eigen::Vector3d variance = position_.variance;
+        variance.head<2>().array() += squared(speed_mps * horizontal_age_s);
+        variance.z() += squared(0.5 * speed_mps * height_age_s);
 
         TrajectoryEpoch epoch;
         epoch.time_s = log_.time_s[i];
         epoch.position_enu_m = position_.value;
         epoch.velocity_enu_mps = velocity_.value;
-        epoch.covariance.diagonal() << position_.variance, velocity_.variance;
+        epoch.covariance.diagonal() << variance, velocity_.variance;
         epoch.attitude = attitudes_[i].attitude;
         epoch.sigma_tilt_rad = attitudes_[i].sigma_tilt_rad;
         epoch.sigma_heading_rad = attitudes_[i].sigma_heading_rad;
@@ -71,68 +76,64 @@ class RawRun {
     }
 
   private:
+    // Whether there is a reading that may be used; counts what may not.
+    bool takes(Sensor sensor, std::optional<std::string_view> rejection) {
+        if (!rejection) return false;
+        if (!rejection->empty()) ledger_.reject(sensor, *rejection);
+        return rejection->empty();
+    }
+
     void takeVelocity(std::size_t i) {
-        const Eigen::Vector2d flow(log_.value(Channel::FlowForward, i), log_.value(Channel::FlowLeft, i));
         const EpochAttitude& attitude = attitudes_[i];
-        if (present(flow.x()) || present(flow.y())) {
-            const double quality = log_.value(Channel::FlowQuality, i);
-            if (present(quality) && quality < options_.flow.smallest_quality) {
-                ledger_.reject(Sensor::OpticalFlow, "no texture");
-            } else if (!flow.allFinite()) {
-                ledger_.reject(Sensor::OpticalFlow, "one component missing");
-            } else if (!attitude.heading_known) {
-                ledger_.reject(Sensor::OpticalFlow, "no attitude");
-            } else {
-                const double c = std::cos(attitude.attitude.yaw_rad);
-                const double s = std::sin(attitude.attitude.yaw_rad);
-                velocity_.value.head<2>() << c * flow.x() - s * flow.y(), s * flow.x() + c * flow.y();
-                velocity_.variance.head<2>().setConstant(
-                    options_.flow.variance_m2ps2 +
-                    (options_.flow.variance_per_v2 + squared(attitude.sigma_heading_rad)) *
-                        flow.squaredNorm());
-                ledger_.use(Sensor::OpticalFlow, false);
-                return;
-            }
+        if (takes(Sensor::OpticalFlow, flowRejection(log_, i, attitude, options_.flow))) {
+            const Eigen::Vector2d flow(log_.value(Channel::FlowForward, i), log_.value(Channel::FlowLeft, i));
+            velocity_.value.head<2>() = Eigen::Rotation2Dd(attitude.attitude.yaw_rad) * flow;
+            velocity_.variance.head<2>().setConstant(
+                options_.flow.variance_m2ps2 +
+                (options_.flow.variance_per_v2 + squared(attitude.sigma_heading_rad)) * flow.squaredNorm());
+            ledger_.use(Sensor::OpticalFlow, false);
+            return;
         }
         const Eigen::Vector2d doppler(log_.value(Channel::GnssVelocityEast, i),
                                       log_.value(Channel::GnssVelocityNorth, i));
-        if (!doppler.allFinite()) return;
+        if (!takes(Sensor::GnssVelocity, dopplerRejection(log_, i))) return;
+        if (!doppler.allFinite()) {
+            ledger_.reject(Sensor::GnssVelocity, "one component missing");
+            return;
+        }
         velocity_.value.head<2>() = doppler;
         velocity_.variance.head<2>().setConstant(squared(options_.gnss.velocity_sigma_mps));
         ledger_.use(Sensor::GnssVelocity, false);
     }
 
-    bool takeHeight(std::size_t i) {
-        const double pressure_pa = log_.value(Channel::Pressure, i);
-        if (!present(pressure_pa) || !reference_.barometer_zero_m) return false;
-        const BarometerOptions& barometer = options_.barometer;
-        const double height_m = barometer.scale * isaHeight(pressure_pa) - *reference_.barometer_zero_m;
-        if (!std::isfinite(height_m)) {
-            ledger_.reject(Sensor::Barometer, "pressure not positive");
-            return false;
-        }
-        position_.value.z() = height_m;
-        position_.variance.z() = squared(barometer.sigma_m) + squared(barometer.gust_sigma_m) +
-                                 squared(barometer.drift_m_per_sqrt_min) *
-                                     std::abs(log_.time_s[i] - reference_.barometer_zero_time_s) / 60.0;
+    void takeHeight(std::size_t i) {
+        if (!reference_.barometer_zero_m) return;
+        if (!takes(Sensor::Barometer, barometerRejection(log_, i))) return;
+        const auto [white, lasting] =
+            barometerVariance(options_.barometer, log_.time_s[i] - reference_.barometer_zero_time_s);
+        position_.value.z() = reference_.barometricUp(log_.value(Channel::Pressure, i),
+                                                      options_.barometer.scale, position_.value);
+        position_.variance.z() = white + lasting + reference_.height_reference_variance_m2;
+        height_time_s_ = log_.time_s[i];
         ledger_.use(Sensor::Barometer, false);
-        return true;
     }
 
     void takePosition(std::size_t i) {
-        const auto position = gnssPosition(log_, i, frame_, attitudes_[i].attitude, position_.value.z());
+        const auto position = gnssPosition(log_, i, frame_, attitudes_[i], position_.value.z());
         if (!position) return;
         const GnssQuality quality = gnssQuality(log_, i, options_.gnss);
         if (!quality.rejection.empty()) {
             ledger_.reject(Sensor::GnssPosition, quality.rejection);
             return;
         }
-        position_.value.head<2>() = position->head<2>();
-        position_.variance.head<2>().setConstant(squared(quality.sigma_m));
+        position_.value.head<2>() = position->enu_m.head<2>();
+        position_.variance.head<2>().setConstant(squared(quality.sigma_m) + position->arm_variance_m2);
+        horizontal_time_s_ = log_.time_s[i];
         ledger_.use(Sensor::GnssPosition, false);
-        if (reference_.barometer_zero_m || !present(position->z())) return;
-        position_.value.z() = position->z();
-        position_.variance.z() = squared(quality.sigma_up_m);
+        if (reference_.barometer_zero_m || !present(position->enu_m.z())) return;
+        position_.value.z() = position->enu_m.z();
+        position_.variance.z() = squared(quality.sigma_up_m) + position->arm_variance_up_m2;
+        height_time_s_ = log_.time_s[i];
         ledger_.use(Sensor::GnssHeight, false);
     }
 
@@ -142,8 +143,10 @@ class RawRun {
     const std::vector<EpochAttitude>& attitudes_;
     const RunReference& reference_;
     SensorLedger ledger_;
-    Held position_;
-    Held velocity_;
+    Estimate position_;  // as it was when it was measured
+    Estimate velocity_;
+    double horizontal_time_s_ = 0.0;  // when that was
+    double height_time_s_ = 0.0;
     bool has_gnss_ = false;
 };
 

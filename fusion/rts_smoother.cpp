@@ -42,6 +42,7 @@ std::vector<PackedEstimate> smoothed(std::vector<PackedEstimate> filtered, std::
                                      std::stop_token stop) {
     if (filtered.empty()) return filtered;
     StateEstimate next = unpacked(filtered.back());
+    Vector9d next_response = filtered.back().height_response;
     for (std::size_t k = filtered.size() - 1; k-- > 0;) {
         if (k % 256 == 0 && stop.stop_requested()) break;
         const StateEstimate here = unpacked(filtered[k]);
@@ -54,7 +55,10 @@ std::vector<PackedEstimate> smoothed(std::vector<PackedEstimate> filtered, std::
             I_GF * here.covariance * I_GF.transpose() + G * (next.covariance + step.Q) * G.transpose();
         next.mean = here.mean + G * (next.mean - prediction.mean);
         next.covariance = 0.5 * (P + P.transpose());
+        const Vector9d& response = filtered[k].height_response;
+        next_response = (response + G * (next_response - step.F * response)).eval();
         filtered[k] = packed(next);
+        filtered[k].height_response = next_response;
     }
     return filtered;
 }

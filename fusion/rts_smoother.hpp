@@ -14,6 +14,10 @@ namespace terrawalk {
 struct PackedEstimate {
     Vector9d mean;
     std::array<double, 45> covariance;
+    /// By how much the mean moves for each metre by which the height reference (zero of the barometer, or an
+    /// assumed height) moves. That error lasts, so it belongs to no state and to no white noise; the
+    /// smoother treats it as it treats the mean. Source: Schmidt 1966, the consider filter.
+    Vector9d height_response = Vector9d::Zero();
 };
 
 [[nodiscard]] PackedEstimate packed(const StateEstimate& state);
@@ -32,7 +36,7 @@ struct Inflation {
                                         const ProcessOptions& options, std::span<const Inflation> inflations);
 
 /// Rauch-Tung-Striebel pass over the filtered epochs, last to first; the vector is reused for the answer.
-/// Transitions are made anew from the times, so an epoch costs 54 numbers and no more. The covariance is
+/// Transitions are made anew from the times, so an epoch costs 63 numbers and no more. The covariance is
 ///     Ps = (I - G F) P (I - G F)' + G (Ps_next + Q) G',
 /// a sum of positive parts. Returns early, with the rest unsmoothed, when `stop` is requested; the caller
 /// checks. Pure; safe from any thread. Source: Rauch, Tung and Striebel 1965; for the form, Bierman 1983.

@@ -13,20 +13,40 @@ namespace terrawalk {
 
 namespace {
 
-constexpr double kUnknownStart_m = 300.0;  // sigma of a start that only a later mark will tell
-constexpr double kStartSigma_m = 0.01;     // sigma of a start that defines the frame
+constexpr double kUnknownStart_m = 300.0;    // sigma of a start that only a later mark will tell
+constexpr double kStartSigma_m = 0.01;       // sigma of a start that defines the frame
+constexpr double kHeldHeightSigma_m = 10.0;  // sigma of a height that nothing measures
 
 double squared(double x) {
     return x * x;
 }
 
-double median(std::vector<double> values) {
-    if (values.empty()) return kMissing;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    if (values.size() % 2 == 1) return *middle;
-    return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+struct Weighted {
+    double value = 0.0;
+    double weight = 1.0;  // > 0
+};
+
+// Half of the weight lies on either side; missing without values.
+double median(std::vector<Weighted> values) {
+    std::sort(values.begin(), values.end(),
+              [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
+    double total = 0.0;
+    for (const Weighted& v : values) total += v.weight;
+    double below = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        below += values[i].weight;
+        if (2.0 * below > total || i + 1 == values.size()) return values[i].value;
+        if (2.0 * below == total) return 0.5 * (values[i].value + values[i + 1].value);
+    }
+    return kMissing;
 }
+
+// Where a barometer reads zero, and how surely.
+struct BarometerZero {
+    double height_m = 0.0;
+    double time_s = 0.0;
+    double variance_m2 = 0.0;
+};
 
 class ReferenceFinder {
   public:
@@ -58,29 +78,39 @@ class ReferenceFinder {
     struct GnssEpoch {
         Eigen::Vector3d enu_m;
         GnssQuality quality;
+        double variance_up_m2 = 0.0;
     };
 
     std::optional<GnssEpoch> gnss(std::size_t i) const {
-        const auto position = gnssPosition(log_, i, frame_, attitudes_[i].attitude, 0.0);
+        const auto position = gnssPosition(log_, i, frame_, attitudes_[i], 0.0);
         if (!position) return std::nullopt;
         const GnssQuality quality = gnssQuality(log_, i, options_.gnss);
         if (!quality.rejection.empty()) return std::nullopt;
-        return GnssEpoch{*position, quality};
+        return GnssEpoch{position->enu_m, quality,
+                         squared(quality.sigma_up_m) + position->arm_variance_up_m2};
     }
 
     void surveySensors() {
+        double pressure_s = log_.time_s.front();
         for (std::size_t i = 0; i < log_.size(); ++i) {
             if (const auto epoch = gnss(i)) {
                 has_gnss_ = true;
-                has_gnss_height_ = has_gnss_height_ || present(epoch->enu_m.z());
-                has_rtk_height_ = has_rtk_height_ || (epoch->quality.rtk && present(epoch->enu_m.z()));
+                if (present(epoch->enu_m.z())) {
+                    has_gnss_height_ = true;
+                    (epoch->quality.rtk ? has_rtk_height_ : has_other_height_) = true;
+                }
+                if (!attitudes_[i].heading_known) ++fixes_without_heading_;
             }
             has_doppler_ = has_doppler_ || (present(log_.value(Channel::GnssVelocityEast, i)) &&
                                             present(log_.value(Channel::GnssVelocityNorth, i)));
             has_flow_ =
                 has_flow_ || (present(log_.value(Channel::FlowForward, i)) &&
                               present(log_.value(Channel::FlowLeft, i)) && attitudes_[i].heading_known);
-            has_pressure_ = has_pressure_ || std::isfinite(isaHeight(log_.value(Channel::Pressure, i)));
+            if (std::isfinite(barometricHeight(i))) {
+                has_pressure_ = true;
+                pressure_s = log_.time_s[i];
+            }
+            longest_silence_s_ = std::max(longest_silence_s_, log_.time_s[i] - pressure_s);
             has_range_ = has_range_ || present(log_.value(Channel::Range, i));
         }
         const bool raw = options_.method == FusionMethod::Raw;
@@ -100,10 +130,10 @@ class ReferenceFinder {
     }
 
     double medianHeightAboveGround(const std::vector<std::size_t>& epochs) const {
-        std::vector<double> heights;
+        std::vector<Weighted> heights;
         for (const std::size_t i : epochs) {
             const double height_m = heightAboveGround(log_, i, attitudes_[i].attitude, options_.ties);
-            if (present(height_m)) heights.push_back(height_m);
+            if (present(height_m)) heights.push_back({height_m});
         }
         return median(std::move(heights));
     }
@@ -161,91 +191,131 @@ class ReferenceFinder {
 
     void zeroBarometer() {
         if (!has_pressure_ || !(options_.barometer.use || options_.method == FusionMethod::Raw)) return;
-        if (zeroBarometerOnMark()) return;
-        if (zeroBarometerByGnss()) return;
-        zeroBarometerOnGround();
+        const BarometerZero zero = barometerZero();
+        reference_.barometer_zero_m = zero.height_m;
+        reference_.barometer_zero_time_s = zero.time_s;
+        reference_.height_reference_variance_m2 = zero.variance_m2;
     }
 
-    bool zeroBarometerOnMark() {
+    BarometerZero barometerZero() {
+        if (const auto on_mark = zeroOnMark()) return *on_mark;
+        const auto near_mark = zeroNearMark();
+        const auto by_gnss = zeroByGnss();
+        if (near_mark && !(by_gnss && by_gnss->variance_m2 < near_mark->variance_m2)) {
+            notes_.limitations.push_back(
+                fmt::format("the barometer was silent on the marks: it is zeroed {:.1f} s away from one",
+                            near_mark_apart_s_));
+            return *near_mark;
+        }
+        if (by_gnss) {
+            notes_.limitations.push_back(
+                "no known mark to zero the barometer on: it is tied to the median GNSS height of the run");
+            return *by_gnss;
+        }
+        return zeroOnGround();
+    }
+
+    // Of a mean over readings that follow one another for so long: gusts average out slowly.
+    double meanVariance(double n, double lasting_s) const {
+        const BarometerOptions& barometer = options_.barometer;
+        return squared(barometer.sigma_m) / n +
+               squared(barometer.gust_sigma_m) /
+                   std::max(1.0, 0.5 * lasting_s / std::max(barometer.gust_correlation_s, 1e-9));
+    }
+
+    std::optional<BarometerZero> zeroOnMark() const {
         double sum_m = 0.0;
-        std::size_t n = 0;
+        double tie_variance_m2 = 0.0;
+        double n = 0.0;
         double first_s = 0.0;
         double last_s = 0.0;
         for (const MarkTie& tie : reference_.ties) {
             const double time_s = log_.time_s[tie.epoch];
             // Ties that follow within a second belong to the same stand.
-            if (n > 0 && time_s - last_s > 1.0) break;
+            if (n > 0.0 && time_s - last_s > 1.0) break;
             const double height_m = barometricHeight(tie.epoch);
             if (!tie.has_height || !std::isfinite(height_m)) continue;
-            if (n == 0) first_s = time_s;
+            if (n == 0.0) first_s = time_s;
             last_s = time_s;
-            sum_m += height_m - tie.array_enu_m.z();
-            ++n;
+            sum_m += height_m - levelHeight(tie.array_enu_m);
+            tie_variance_m2 += tie.variance_m2.z();
+            n += 1.0;
         }
-        if (n == 0) return zeroBarometerNearMark();
-        reference_.barometer_zero_m = sum_m / static_cast<double>(n);
-        reference_.barometer_zero_time_s = 0.5 * (first_s + last_s);
-        return true;
+        if (n == 0.0) return std::nullopt;
+        return BarometerZero{sum_m / n, 0.5 * (first_s + last_s),
+                             tie_variance_m2 / squared(n) + meanVariance(n, last_s - first_s)};
     }
 
-    // The barometer was silent on every mark: its reading nearest in time to the first one must do.
-    bool zeroBarometerNearMark() {
-        const auto tie = std::find_if(reference_.ties.begin(), reference_.ties.end(),
-                                      [](const MarkTie& t) { return t.has_height; });
-        if (tie == reference_.ties.end()) return false;
-        const double tie_s = log_.time_s[tie->epoch];
-        double nearest_s = std::numeric_limits<double>::infinity();
+    // The barometer was silent on every mark: its reading nearest in time to one of them.
+    std::optional<BarometerZero> zeroNearMark() {
+        std::vector<std::size_t> readings;
         for (std::size_t i = 0; i < log_.size(); ++i) {
-            const double height_m = barometricHeight(i);
-            const double apart_s = std::abs(log_.time_s[i] - tie_s);
-            if (!std::isfinite(height_m) || apart_s >= nearest_s) continue;
-            nearest_s = apart_s;
-            reference_.barometer_zero_m = height_m - tie->array_enu_m.z();
-            reference_.barometer_zero_time_s = log_.time_s[i];
+            if (std::isfinite(barometricHeight(i))) readings.push_back(i);
         }
-        notes_.limitations.push_back(fmt::format(
-            "the barometer was silent on the marks: it is zeroed {:.1f} s away from one", nearest_s));
-        return true;
+        std::optional<BarometerZero> nearest;
+        near_mark_apart_s_ = std::numeric_limits<double>::infinity();
+        for (const MarkTie& tie : reference_.ties) {
+            if (!tie.has_height) continue;
+            const auto after = std::lower_bound(readings.begin(), readings.end(), tie.epoch);
+            for (auto it = after == readings.begin() ? after : after - 1; it != readings.end() && it <= after;
+                 ++it) {
+                const double apart_s = std::abs(log_.time_s[*it] - log_.time_s[tie.epoch]);
+                if (apart_s >= near_mark_apart_s_) continue;
+                near_mark_apart_s_ = apart_s;
+                nearest =
+                    BarometerZero{barometricHeight(*it) - levelHeight(tie.array_enu_m), log_.time_s[*it],
+                                  tie.variance_m2.z() + meanVariance(1.0, 0.0) +
+                                      squared(0.5 * options_.initial.walking_speed_mps * apart_s)};
+            }
+        }
+        return nearest;
     }
 
-    bool zeroBarometerByGnss() {
-        if (!has_gnss_height_ || options_.gnss.use_height == GnssHeightUse::Never) return false;
-        double sum_m = 0.0;
-        double sum_time = 0.0;
+    // The median forgives what the mean does not: fixes that are wrong and do not know it.
+    std::optional<BarometerZero> zeroByGnss() const {
+        if (!has_gnss_height_ || options_.gnss.use_height == GnssHeightUse::Never) return std::nullopt;
+        std::vector<Weighted> zeros;
+        double weighted_time = 0.0;
         double weights = 0.0;
+        double information = 0.0;
+        double before_s = -std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < log_.size(); ++i) {
             const double height_m = barometricHeight(i);
             const auto epoch = gnss(i);
             if (!epoch || !present(epoch->enu_m.z()) || !std::isfinite(height_m)) continue;
-            const double weight = 1.0 / squared(epoch->quality.sigma_up_m);
-            sum_m += weight * (height_m - epoch->enu_m.z());
-            sum_time += weight * log_.time_s[i];
+            const double factor = whiteNoiseFactor(epoch->quality.correlation_s, log_.time_s[i] - before_s);
+            before_s = log_.time_s[i];
+            const double weight = 1.0 / epoch->variance_up_m2;
+            zeros.push_back({height_m - levelHeight(epoch->enu_m), weight});
+            weighted_time += weight * log_.time_s[i];
             weights += weight;
+            information += weight / factor;
         }
-        if (weights == 0.0) return false;
-        reference_.barometer_zero_m = sum_m / weights;
-        reference_.barometer_zero_time_s = sum_time / weights;
-        notes_.limitations.push_back(
-            "no known mark to zero the barometer on: it is tied to the mean GNSS height of the run");
-        return true;
+        if (zeros.empty()) return std::nullopt;
+        return BarometerZero{median(std::move(zeros)), weighted_time / weights, 1.0 / information};
     }
 
-    void zeroBarometerOnGround() {
-        const auto first = std::find_if(
-            log_.time_s.begin(), log_.time_s.end(),
-            [&, i = std::size_t{0}](double) mutable { return std::isfinite(barometricHeight(i++)); });
-        const std::vector<std::size_t> epochs = epochsWithin(*first, *first + options_.stands.start_s);
+    BarometerZero zeroOnGround() {
+        std::size_t first = 0;
+        while (!std::isfinite(barometricHeight(first))) ++first;
+        const double first_s = log_.time_s[first];
         double sum_m = 0.0;
-        std::size_t n = 0;
-        for (const std::size_t i : epochs) {
+        double n = 0.0;
+        double last_s = first_s;
+        for (const std::size_t i : epochsWithin(first_s, first_s + options_.stands.start_s)) {
             const double height_m = barometricHeight(i);
             if (!std::isfinite(height_m)) continue;
             sum_m += height_m;
-            ++n;
+            n += 1.0;
+            last_s = log_.time_s[i];
         }
-        reference_.barometer_zero_m = sum_m / static_cast<double>(n) - startHeightAboveGround();
-        reference_.barometer_zero_time_s = *first;
+        const double array_m = startHeightAboveGround();
+        const double array_sigma_m =
+            start_range_known_ ? options_.ties.range_sigma_m : options_.ties.assumed_height_sigma_m;
+        return {sum_m / n - array_m, first_s, squared(array_sigma_m) + meanVariance(n, last_s - first_s)};
     }
+
+    static double levelHeight(const Eigen::Vector3d& enu_m) { return enu_m.z() + levelDrop(enu_m); }
 
     // Height of the array in the first seconds when the ground below it is height 0; says so once.
     double startHeightAboveGround() {
@@ -253,9 +323,10 @@ class ReferenceFinder {
             const double from_s = log_.time_s.front();
             const double measured_m =
                 medianHeightAboveGround(epochsWithin(from_s, from_s + options_.stands.start_s));
-            start_height_m_ = present(measured_m) ? measured_m : options_.ties.assumed_height_m;
+            start_range_known_ = present(measured_m);
+            start_height_m_ = start_range_known_ ? measured_m : options_.ties.assumed_height_m;
             notes_.limitations.push_back(
-                present(measured_m)
+                start_range_known_
                     ? "no known mark and no GNSS height: the ground below the start of the run is height 0"
                     : fmt::format("no known mark, GNSS height or range at the start: the array is taken to "
                                   "start {} m "
@@ -268,14 +339,22 @@ class ReferenceFinder {
     void chooseGnssHeight() {
         reference_.gnss_height = options_.gnss.use_height;
         if (!reference_.barometer_zero_m && reference_.gnss_height == GnssHeightUse::Rtk &&
-            has_gnss_height_ && !has_rtk_height_) {
+            has_other_height_) {
             reference_.gnss_height = GnssHeightUse::Always;
-            notes_.limitations.push_back("no barometer and no RTK fix: GNSS height is used whatever the fix");
+            notes_.limitations.push_back("no barometer in use: GNSS height is used whatever the fix");
         }
         const bool gnss_height = (reference_.gnss_height == GnssHeightUse::Always && has_gnss_height_) ||
                                  (reference_.gnss_height == GnssHeightUse::Rtk && has_rtk_height_);
         reference_.has_height = reference_.barometer_zero_m.has_value() || gnss_height;
+        if (reference_.barometer_zero_m && longest_silence_s_ > options_.barometer.longest_silence_s) {
+            notes_.limitations.push_back(
+                fmt::format("the barometer was silent for up to {:.0f} s: {}", longest_silence_s_,
+                            has_gnss_height_ && reference_.gnss_height != GnssHeightUse::Never
+                                ? "GNSS height of any fix stands in there"
+                                : "nothing measures height there, the walk is taken to climb little"));
+        }
         if (!reference_.has_height) {
+            reference_.height_reference_variance_m2 = squared(kHeldHeightSigma_m);
             notes_.limitations.push_back(
                 "nothing in the log measures height: it is held near that of the start");
         }
@@ -312,7 +391,6 @@ class ReferenceFinder {
         std::size_t first = 0;
         while (first < log_.size() && !gnss(first)) ++first;
         if (first == log_.size()) return false;
-        const GnssEpoch first_fix = *gnss(first);
         Eigen::Vector2d sum = Eigen::Vector2d::Zero();
         double n = 0.0;
         // The mean of the first seconds, as long as nothing says that the array moved.
@@ -327,12 +405,12 @@ class ReferenceFinder {
         reference_.start_enu_m.head<2>() = sum / n;
         // A fix that comes late says less about where the run began.
         const double age_s = log_.time_s[first] - log_.time_s.front();
-        const double sigma_m =
-            std::hypot(first_fix.quality.sigma_m, options_.initial.walking_speed_mps * age_s);
-        reference_.start_sigma_m.setConstant(sigma_m);
-        if (age_s > 0.0) {
+        // Wide, because the filter reads the same fixes again.
+        reference_.start_sigma_m.setConstant(
+            std::hypot(options_.initial.position_sigma_m, options_.initial.walking_speed_mps * age_s));
+        if (age_s > options_.stands.start_s) {
             notes_.limitations.push_back(
-                fmt::format("first GNSS position {:.1f} s after the start of the log", age_s));
+                fmt::format("no GNSS position in the first {:.1f} s, so the start is less sure", age_s));
         }
         return true;
     }
@@ -342,9 +420,9 @@ class ReferenceFinder {
         reference_.start_sigma_m.z() = options_.initial.position_sigma_m;
         if (reference_.barometer_zero_m) {
             for (std::size_t i = 0; i < log_.size(); ++i) {
-                const double height_m = barometricHeight(i) - *reference_.barometer_zero_m;
-                if (!std::isfinite(height_m)) continue;
-                up_m = height_m;
+                if (!std::isfinite(barometricHeight(i))) continue;
+                up_m = reference_.barometricUp(log_.value(Channel::Pressure, i), options_.barometer.scale,
+                                               reference_.start_enu_m);
                 return;
             }
         }
@@ -366,6 +444,12 @@ class ReferenceFinder {
         if (!has_pressure_) notes_.limitations.push_back("no barometer");
         if (!has_range_) notes_.limitations.push_back("no range finder: this run gives no ground points");
         if (!log_.has(Channel::AccelerationX)) notes_.limitations.push_back("no accelerometer");
+        if (fixes_without_heading_ > 0 && !log_.gnss_lever_arm_m.head<2>().isZero()) {
+            notes_.limitations.push_back(
+                fmt::format("no heading in {} GNSS epochs: the horizontal lever arm of the antenna is not "
+                            "removed there but counted as variance",
+                            fixes_without_heading_));
+        }
         if (has_gnss_ && !log_.has(Channel::Fix)) {
             notes_.limitations.push_back("the log names no fix: every GNSS position counts as single");
         }
@@ -383,6 +467,11 @@ class ReferenceFinder {
     bool has_gnss_ = false;
     bool has_gnss_height_ = false;
     bool has_rtk_height_ = false;
+    bool has_other_height_ = false;  // from fixes that are not RTK
+    bool start_range_known_ = false;
+    std::size_t fixes_without_heading_ = 0;
+    double near_mark_apart_s_ = 0.0;
+    double longest_silence_s_ = 0.0;  // of the barometer
     bool has_doppler_ = false;
     bool has_flow_ = false;
     bool has_pressure_ = false;

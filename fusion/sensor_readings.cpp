@@ -65,35 +65,38 @@ void readGnssPosition(const ReadingContext& context, std::size_t i, const StateE
                       const SensorMemory& memory, std::vector<Reading>& readings) {
     const GnssOptions& options = context.options.gnss;
     const double up_m = prediction.block(StateBlock::Position).z();
-    const auto position = gnssPosition(context.log, i, context.frame, context.attitudes[i].attitude, up_m);
+    const auto position = gnssPosition(context.log, i, context.frame, context.attitudes[i], up_m);
     if (!position) return;
     const GnssQuality quality = gnssQuality(context.log, i, options);
     const double time_s = context.log.time_s[i];
 
     if (options.use_position) {
         Reading reading(Sensor::GnssPosition, quality.rejection);
-        const double variance = squared(quality.sigma_m);
+        const double variance = squared(quality.sigma_m) + position->arm_variance_m2;
         const double factor =
             whiteNoiseFactor(quality.correlation_s, time_s - memory.lastUsed(Sensor::GnssPosition));
         if (quality.rejection.empty()) {
-            reading.add(StateBlock::Position, Eigen::Vector3d::UnitX(), position->x(), factor * variance,
-                        variance);
-            reading.add(StateBlock::Position, Eigen::Vector3d::UnitY(), position->y(), factor * variance,
-                        variance);
+            for (int axis = 0; axis < 2; ++axis) {
+                reading.add(StateBlock::Position, Eigen::Vector3d::Unit(axis), position->enu_m[axis],
+                            factor * variance, variance);
+            }
         }
         readings.push_back(reading);
     }
-    if (present(position->z()) && context.reference.gnss_height != GnssHeightUse::Never) {
+    if (present(position->enu_m.z()) && context.reference.gnss_height != GnssHeightUse::Never) {
         Reading reading(Sensor::GnssHeight, quality.rejection);
-        const double variance = squared(quality.sigma_up_m);
+        const double variance = squared(quality.sigma_up_m) + position->arm_variance_up_m2;
         const double factor =
             whiteNoiseFactor(quality.correlation_s, time_s - memory.lastUsed(Sensor::GnssHeight));
         if (quality.rejection.empty()) {
-            if (context.reference.gnss_height == GnssHeightUse::Rtk && !quality.rtk) {
+            const double silent_since_s =
+                std::max(memory.lastUsed(Sensor::Barometer), context.log.time_s.front());
+            if (context.reference.gnss_height == GnssHeightUse::Rtk && !quality.rtk &&
+                time_s - silent_since_s <= context.options.barometer.longest_silence_s) {
                 reading.rejection = "no RTK fix";
             } else {
-                reading.add(StateBlock::Position, Eigen::Vector3d::UnitZ(), position->z(), factor * variance,
-                            variance);
+                reading.add(StateBlock::Position, Eigen::Vector3d::UnitZ(), position->enu_m.z(),
+                            factor * variance, variance);
             }
         }
         readings.push_back(reading);
@@ -107,12 +110,10 @@ void readGnssVelocity(const ReadingContext& context, std::size_t i, const Sensor
     const Eigen::Vector3d velocity(log.value(Channel::GnssVelocityEast, i),
                                    log.value(Channel::GnssVelocityNorth, i),
                                    log.value(Channel::GnssVelocityUp, i));
-    if (!options.use_velocity || !(present(velocity.x()) || present(velocity.y()) || present(velocity.z())))
-        return;
-    Reading reading(Sensor::GnssVelocity);
-    const double fix = log.value(Channel::Fix, i);
-    if (present(fix) && std::lround(fix) == fix_code::kNone) {
-        reading.rejection = "no fix";
+    const auto rejection = dopplerRejection(log, i);
+    if (!options.use_velocity || !rejection) return;
+    Reading reading(Sensor::GnssVelocity, *rejection);
+    if (!rejection->empty()) {
         readings.push_back(reading);
         return;
     }
@@ -136,25 +137,22 @@ void readGnssVelocity(const ReadingContext& context, std::size_t i, const Sensor
     readings.push_back(reading);
 }
 
-void readBarometer(const ReadingContext& context, std::size_t i, const SensorMemory& memory,
-                   std::vector<Reading>& readings) {
+void readBarometer(const ReadingContext& context, std::size_t i, const StateEstimate& prediction,
+                   const SensorMemory& memory, std::vector<Reading>& readings) {
     const BarometerOptions& options = context.options.barometer;
-    const double pressure_pa = context.log.value(Channel::Pressure, i);
-    if (!options.use || !present(pressure_pa) || !context.reference.barometer_zero_m) return;
-    Reading reading(Sensor::Barometer);
-    const double height_m = options.scale * isaHeight(pressure_pa) - *context.reference.barometer_zero_m;
-    if (!std::isfinite(height_m)) {
-        reading.rejection = "pressure not positive";
-    } else {
+    const auto rejection = barometerRejection(context.log, i);
+    if (!options.use || !rejection || !context.reference.barometer_zero_m) return;
+    Reading reading(Sensor::Barometer, *rejection);
+    if (rejection->empty()) {
+        const double up_m = context.reference.barometricUp(
+            context.log.value(Channel::Pressure, i), options.scale, prediction.block(StateBlock::Position));
         const double time_s = context.log.time_s[i];
-        const double white = squared(options.sigma_m);
-        const double gust = squared(options.gust_sigma_m);
-        const double drift = squared(options.drift_m_per_sqrt_min) *
-                             std::abs(time_s - context.reference.barometer_zero_time_s) / 60.0;
+        const auto [white, lasting] =
+            barometerVariance(options, time_s - context.reference.barometer_zero_time_s);
         const double factor =
             whiteNoiseFactor(options.gust_correlation_s, time_s - memory.lastUsed(Sensor::Barometer));
-        reading.add(StateBlock::Position, Eigen::Vector3d::UnitZ(), height_m, white + factor * (gust + drift),
-                    white + gust + drift);
+        reading.add(StateBlock::Position, Eigen::Vector3d::UnitZ(), up_m, white + factor * lasting,
+                    white + lasting);
     }
     readings.push_back(reading);
 }
@@ -178,39 +176,34 @@ void readFlow(const ReadingContext& context, std::size_t i, const SensorMemory& 
               std::vector<Reading>& readings) {
     const ArrayLog& log = context.log;
     const FlowOptions& options = context.options.flow;
-    if (!options.use || !(log.has(Channel::FlowForward) && log.has(Channel::FlowLeft))) return;
+    if (!options.use) return;
     const EpochAttitude& attitude = context.attitudes[i];
-    const Eigen::Vector2d flow_mps(log.value(Channel::FlowForward, i), log.value(Channel::FlowLeft, i));
-    const double quality = log.value(Channel::FlowQuality, i);
-    const double since_s = log.time_s[i] - memory.lastUsed(Sensor::OpticalFlow);
-
-    bool usable = false;
-    if (present(flow_mps.x()) || present(flow_mps.y())) {
-        Reading reading(Sensor::OpticalFlow);
-        if (present(quality) && quality < options.smallest_quality) {
-            reading.rejection = "no texture";
-        } else if (!flow_mps.allFinite()) {
-            reading.rejection = "one component missing";
-        } else if (!attitude.heading_known) {
-            reading.rejection = "no attitude";
-        } else {
+    const double time_s = log.time_s[i];
+    const double since_s = time_s - memory.lastUsed(Sensor::OpticalFlow);
+    const auto rejection = flowRejection(log, i, attitude, options);
+    if (rejection) {
+        Reading reading(Sensor::OpticalFlow, *rejection);
+        if (rejection->empty()) {
+            const Eigen::Vector2d flow_mps(log.value(Channel::FlowForward, i),
+                                           log.value(Channel::FlowLeft, i));
             addFlowRows(flow_mps, attitude, options, whiteNoiseFactor(options.correlation_s, since_s),
                         reading);
-            usable = true;
         }
         readings.push_back(reading);
+        if (rejection->empty()) return;
     }
-    const bool bridge = options.bridge_dropouts && !usable && attitude.heading_known &&
-                        std::isfinite(since_s) && since_s > options.bridge_after_s &&
-                        !log.has(Channel::GnssVelocityEast);
+    const bool bridge = options.bridge_dropouts && attitude.heading_known &&
+                        since_s > options.bridge_after_s && since_s <= options.bridge_longest_s &&
+                        time_s - memory.lastUsed(Sensor::GnssVelocity) > options.bridge_after_s;
     if (!bridge) return;
     Reading reading(Sensor::MeanFlow);
     const double yaw = attitude.attitude.yaw_rad;
     const double variance = squared(options.bridge_sigma_mps);
-    reading.add(StateBlock::Velocity, {std::cos(yaw), std::sin(yaw), 0.0}, memory.mean_flow_mps.x(), variance,
+    const double believed = variance * whiteNoiseFactor(options.bridge_memory_s, time_s - memory.lastFlow());
+    reading.add(StateBlock::Velocity, {std::cos(yaw), std::sin(yaw), 0.0}, memory.mean_flow_mps.x(), believed,
                 variance);
     reading.add(StateBlock::Velocity, {-std::sin(yaw), std::cos(yaw), 0.0}, memory.mean_flow_mps.y(),
-                variance, variance);
+                believed, variance);
     readings.push_back(reading);
 }
 
@@ -323,17 +316,68 @@ GnssQuality gnssQuality(const ArrayLog& log, std::size_t epoch, const GnssOption
     return quality;
 }
 
-std::optional<Eigen::Vector3d> gnssPosition(const ArrayLog& log, std::size_t epoch, const LocalFrame& frame,
-                                            const Attitude& attitude, double assumed_up_m) {
+std::optional<GnssPosition> gnssPosition(const ArrayLog& log, std::size_t epoch, const LocalFrame& frame,
+                                         const EpochAttitude& attitude, double assumed_up_m) {
     const double lat_deg = log.value(Channel::Latitude, epoch);
     const double lon_deg = log.value(Channel::Longitude, epoch);
     if (!present(lat_deg) || !present(lon_deg)) return std::nullopt;
     const double h_ell_m = log.value(Channel::EllipsoidalHeight, epoch);
     const double height_m = present(h_ell_m) ? h_ell_m : frame.zeroPoint().h_ell_m + assumed_up_m;
-    Eigen::Vector3d position = frame.toEnu({lat_deg, lon_deg, height_m});
-    if (!log.gnss_lever_arm_m.isZero()) position -= rotationEnuFromBody(attitude) * log.gnss_lever_arm_m;
-    if (!present(h_ell_m)) position.z() = kMissing;
+    GnssPosition position{.enu_m = frame.toEnu({lat_deg, lon_deg, height_m})};
+    if (!log.gnss_lever_arm_m.isZero()) {
+        Eigen::Vector3d arm = rotationEnuFromBody(attitude.attitude) * log.gnss_lever_arm_m;
+        const double tilt_variance = squared(attitude.sigma_tilt_rad);
+        const double horizontal_m2 = arm.head<2>().squaredNorm();
+        position.arm_variance_m2 =
+            tilt_variance * squared(arm.z()) +
+            (attitude.heading_known ? squared(attitude.sigma_heading_rad) : 1.0) * horizontal_m2;
+        position.arm_variance_up_m2 = tilt_variance * horizontal_m2;
+        if (!attitude.heading_known) arm.head<2>().setZero();
+        position.enu_m -= arm;
+    }
+    if (!present(h_ell_m)) position.enu_m.z() = kMissing;
     return position;
+}
+
+std::optional<std::string_view> flowRejection(const ArrayLog& log, std::size_t epoch,
+                                              const EpochAttitude& attitude, const FlowOptions& options) {
+    const bool forward = present(log.value(Channel::FlowForward, epoch));
+    const bool left = present(log.value(Channel::FlowLeft, epoch));
+    if (!forward && !left) return std::nullopt;
+    if (log.value(Channel::FlowQuality, epoch) < options.smallest_quality) return "no texture";
+    if (!forward || !left) return "one component missing";
+    if (!attitude.heading_known) return "no attitude";
+    return "";
+}
+
+std::optional<std::string_view> dopplerRejection(const ArrayLog& log, std::size_t epoch) {
+    if (!present(log.value(Channel::GnssVelocityEast, epoch)) &&
+        !present(log.value(Channel::GnssVelocityNorth, epoch)) &&
+        !present(log.value(Channel::GnssVelocityUp, epoch))) {
+        return std::nullopt;
+    }
+    const double fix = log.value(Channel::Fix, epoch);
+    return present(fix) && std::lround(fix) == fix_code::kNone ? "no fix" : "";
+}
+
+std::optional<std::string_view> barometerRejection(const ArrayLog& log, std::size_t epoch) {
+    const double pressure_pa = log.value(Channel::Pressure, epoch);
+    if (!present(pressure_pa)) return std::nullopt;
+    return std::isfinite(isaHeight(pressure_pa)) ? "" : "pressure not positive";
+}
+
+double levelDrop(const Eigen::Vector3d& enu_m) {
+    constexpr double kEarthRadius_m = 6371.0e3;
+    return enu_m.head<2>().squaredNorm() / (2.0 * kEarthRadius_m);
+}
+
+BarometerVariance barometerVariance(const BarometerOptions& options, double since_zero_s) {
+    return {squared(options.sigma_m), squared(options.gust_sigma_m) + squared(options.drift_m_per_sqrt_min) *
+                                                                          std::abs(since_zero_s) / 60.0};
+}
+
+double RunReference::barometricUp(double pressure_pa, double scale, const Eigen::Vector3d& near_enu_m) const {
+    return scale * isaHeight(pressure_pa) - *barometer_zero_m - levelDrop(near_enu_m);
 }
 
 double heightAboveGround(const ArrayLog& log, std::size_t epoch, const Attitude& attitude,
@@ -355,7 +399,7 @@ void readEpoch(const ReadingContext& context, std::size_t epoch, const StateEsti
     readHeading(context, epoch, prediction, readings);
     readGnssPosition(context, epoch, prediction, memory, readings);
     readGnssVelocity(context, epoch, memory, readings);
-    readBarometer(context, epoch, memory, readings);
+    readBarometer(context, epoch, prediction, memory, readings);
     readFlow(context, epoch, memory, readings);
     readAccelerometer(context, epoch, readings);
 }

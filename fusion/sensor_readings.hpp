@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -56,12 +57,38 @@ struct GnssQuality {
 };
 [[nodiscard]] GnssQuality gnssQuality(const ArrayLog& log, std::size_t epoch, const GnssOptions& options);
 
-/// Origin of the array in local ENU as GNSS has it, antenna lever arm removed; nothing without latitude and
-/// longitude. Without an ellipsoidal height, e and n are computed at `assumed_up_m` above the zero point, and
-/// up is missing.
-[[nodiscard]] std::optional<Eigen::Vector3d> gnssPosition(const ArrayLog& log, std::size_t epoch,
-                                                          const LocalFrame& frame, const Attitude& attitude,
-                                                          double assumed_up_m);
+/// Origin of the array in local ENU as GNSS has it.
+struct GnssPosition {
+    Eigen::Vector3d enu_m = Eigen::Vector3d::Zero();  ///< up is missing without an ellipsoidal height
+    double arm_variance_m2 = 0.0;  ///< that the attitude leaves in the lever arm, per horizontal axis
+    double arm_variance_up_m2 = 0.0;
+};
+
+/// Nothing without latitude and longitude. Without an ellipsoidal height, e and n are computed at
+/// `assumed_up_m` above the zero point. The lever arm of the antenna is rotated and removed; while the
+/// heading is unknown only its vertical part is, and the rest is variance.
+[[nodiscard]] std::optional<GnssPosition> gnssPosition(const ArrayLog& log, std::size_t epoch,
+                                                       const LocalFrame& frame, const EpochAttitude& attitude,
+                                                       double assumed_up_m);
+
+/// What keeps a reading from being used, by any method: nothing when the log has no reading in this epoch,
+/// empty when the reading may be used.
+[[nodiscard]] std::optional<std::string_view> flowRejection(const ArrayLog& log, std::size_t epoch,
+                                                            const EpochAttitude& attitude,
+                                                            const FlowOptions& options);
+[[nodiscard]] std::optional<std::string_view> dopplerRejection(const ArrayLog& log, std::size_t epoch);
+[[nodiscard]] std::optional<std::string_view> barometerRejection(const ArrayLog& log, std::size_t epoch);
+
+/// By how much a level surface through the origin has sunk below the tangent plane: (e^2 + n^2) / (2 R), R =
+/// 6371 km. Barometric heights follow the level surface. 0.08 m at 1 km; right to 0.5 %.
+[[nodiscard]] double levelDrop(const Eigen::Vector3d& enu_m);
+
+/// Variance of one barometric height: white, and what lasts over a gust or grows since the zero.
+struct BarometerVariance {
+    double white_m2 = 0.0;
+    double lasting_m2 = 0.0;
+};
+[[nodiscard]] BarometerVariance barometerVariance(const BarometerOptions& options, double since_zero_s);
 
 /// Height of the array's origin above the ground it measures, from range, tilt and lever arm; missing without
 /// a range between the limits of `options` (finders report a far range where nothing came back).
@@ -103,12 +130,19 @@ struct RunReference {
     Eigen::Vector3d start_sigma_m = Eigen::Vector3d::Ones();
     bool starts_on_mark = false;
     std::vector<MarkTie> ties;  ///< in order of epochs
-    std::optional<double>
-        barometer_zero_m;  ///< barometric height at which up is 0; nothing without a barometer
+    /// Barometric height at which the level surface through the zero point lies; nothing without a barometer.
+    std::optional<double> barometer_zero_m;
     double barometer_zero_time_s = 0.0;
+    /// Lasting variance of what heights are measured from: the zero of the barometer, or the assumption that
+    /// stands in where nothing measures height.
+    double height_reference_variance_m2 = 0.0;
     GnssHeightUse gnss_height = GnssHeightUse::Rtk;  ///< what is done, which may be more than was asked for
     bool has_horizontal = false;                     ///< anything but ties that tells e and n
     bool has_height = false;                         ///< barometer or GNSS height
+
+    /// Height of the array at `near_enu_m` that a pressure [Pa] tells; there must be a barometer.
+    [[nodiscard]] double barometricUp(double pressure_pa, double scale,
+                                      const Eigen::Vector3d& near_enu_m) const;
 };
 
 /// What the filter remembers between epochs to weigh the next readings.
@@ -124,6 +158,10 @@ struct SensorMemory {
         return last_used_s[static_cast<std::size_t>(sensor)];
     }
     double& lastUsed(Sensor sensor) { return last_used_s[static_cast<std::size_t>(sensor)]; }
+    /// When flow, or its mean in its place, last told the velocity.
+    [[nodiscard]] double lastFlow() const {
+        return std::max(lastUsed(Sensor::OpticalFlow), lastUsed(Sensor::MeanFlow));
+    }
 };
 
 /// Multiplies the variance of an error with correlation time tau that is read every dt, so that a filter

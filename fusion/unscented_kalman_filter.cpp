@@ -29,6 +29,11 @@ double predictedVariance(const StateEstimate& state, const LinearRow& row) {
     return row.direction.dot(state.blockCovariance(row.block) * row.direction);
 }
 
+Vector9d gain(const StateEstimate& state, const LinearRow& row) {
+    const Vector9d PH = state.covariance.middleCols<3>(offset(row.block)) * row.direction;
+    return PH / (predictedVariance(state, row) + row.variance);
+}
+
 StateEstimate predicted(const StateEstimate& state, const Transition& transition) {
     const Matrix9d FP = transition.F * state.covariance;
     const Matrix9d P = FP * transition.F.transpose() + transition.Q;
@@ -38,14 +43,13 @@ StateEstimate predicted(const StateEstimate& state, const Transition& transition
 StateEstimate updated(const StateEstimate& state, const LinearRow& row) {
     const int at = offset(row.block);
     const Vector9d PH = state.covariance.middleCols<3>(at) * row.direction;
-    const double S = row.direction.dot(PH.segment<3>(at)) + row.variance;
-    const Vector9d gain = PH / S;
+    const Vector9d K = gain(state, row);
 
     // (I - K H) P (I - K H)' + K R K'
-    const Matrix9d A = state.covariance - gain * PH.transpose();
+    const Matrix9d A = state.covariance - K * PH.transpose();
     const Vector9d AH = A.middleCols<3>(at) * row.direction;
-    const Matrix9d P = A - AH * gain.transpose() + row.variance * gain * gain.transpose();
-    return {state.mean + gain * innovation(state, row), symmetric(P)};
+    const Matrix9d P = A - AH * K.transpose() + row.variance * K * K.transpose();
+    return {state.mean + K * innovation(state, row), symmetric(P)};
 }
 
 LinearRow linearised(const StateEstimate& state, const YawRow& row, const UnscentedOptions& options) {

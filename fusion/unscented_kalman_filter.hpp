@@ -39,6 +39,9 @@ struct YawRow {
 /// Variance of direction . block as the state has it, without measurement noise.
 [[nodiscard]] double predictedVariance(const StateEstimate& state, const LinearRow& row);
 
+/// Kalman gain of one scalar row.
+[[nodiscard]] Vector9d gain(const StateEstimate& state, const LinearRow& row);
+
 /// F x, F P F' + Q. What 19 sigma points of the posterior give for a linear f, without their rounding.
 /// Source: paper 000, eqs 5-6, and not once more by 10-12.
 [[nodiscard]] StateEstimate predicted(const StateEstimate& state, const Transition& transition);

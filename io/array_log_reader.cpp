@@ -41,13 +41,31 @@ struct ChannelRule {
     bool is_integer;
     std::string_view demand;
 };
-constexpr double kNoBound = std::numeric_limits<double>::infinity();
 constexpr std::array kChannelRules{
     ChannelRule{Channel::Latitude, -90.0, 90.0, false, "a latitude lies between -90 and 90 degrees"},
     ChannelRule{Channel::Longitude, -180.0, 180.0, false, "a longitude lies between -180 and 180 degrees"},
     ChannelRule{Channel::Fix, 0.0, 9.0, true, "a fix is a whole number from 0 to 9"},
-    ChannelRule{Channel::GnssHorizontalAccuracy, 0.0, kNoBound, false, "an accuracy cannot be negative"},
-    ChannelRule{Channel::GnssVerticalAccuracy, 0.0, kNoBound, false, "an accuracy cannot be negative"},
+    ChannelRule{Channel::EllipsoidalHeight, -1e5, 1e5, false, "a height on Earth is below 100 km"},
+    ChannelRule{Channel::GnssHorizontalAccuracy, 0.0, 1e6, false, "an accuracy lies between 0 and 1000 km"},
+    ChannelRule{Channel::GnssVerticalAccuracy, 0.0, 1e6, false, "an accuracy lies between 0 and 1000 km"},
+    ChannelRule{Channel::GnssVelocityEast, -1e3, 1e3, false, "no array moves at 1000 m/s"},
+    ChannelRule{Channel::GnssVelocityNorth, -1e3, 1e3, false, "no array moves at 1000 m/s"},
+    ChannelRule{Channel::GnssVelocityUp, -1e3, 1e3, false, "no array moves at 1000 m/s"},
+    ChannelRule{Channel::Pressure, -1e6, 1e6, false, "no air has 10 bar"},
+    ChannelRule{Channel::Temperature, -300.0, 1e3, false, "no field has that temperature"},
+    ChannelRule{Channel::FlowForward, -1e3, 1e3, false, "no array moves at 1000 m/s"},
+    ChannelRule{Channel::FlowLeft, -1e3, 1e3, false, "no array moves at 1000 m/s"},
+    ChannelRule{Channel::Roll, -1e4, 1e4, false, "an angle is a few turns at most"},
+    ChannelRule{Channel::Pitch, -1e4, 1e4, false, "an angle is a few turns at most"},
+    ChannelRule{Channel::Heading, -1e4, 1e4, false, "an angle is a few turns at most"},
+    ChannelRule{Channel::AccelerationX, -1e4, 1e4, false, "no hand bears 1000 g"},
+    ChannelRule{Channel::AccelerationY, -1e4, 1e4, false, "no hand bears 1000 g"},
+    ChannelRule{Channel::AccelerationZ, -1e4, 1e4, false, "no hand bears 1000 g"},
+    ChannelRule{Channel::AngularRateX, -1e5, 1e5, false, "no hand turns that fast"},
+    ChannelRule{Channel::AngularRateY, -1e5, 1e5, false, "no hand turns that fast"},
+    ChannelRule{Channel::AngularRateZ, -1e5, 1e5, false, "no hand turns that fast"},
+    ChannelRule{Channel::Range, -1e6, 1e6, false, "no range finder sees 1000 km"},
+    ChannelRule{Channel::RangeStrength, -1e9, 1e9, false, "no range finder counts that far"},
     ChannelRule{Channel::FlowQuality, 0.0, 255.0, false, "a flow quality lies between 0 and 255"},
 };
 

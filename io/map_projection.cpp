@@ -163,7 +163,9 @@ Pj operationAt(const Proj& proj, const PJ* crs, const GeodeticPosition& zero, bo
     const Pj wgs84 = proj.create("EPSG:4979");
     const Area area(proj_area_create());
     if (!wgs84) return nullptr;
-    proj_area_set_bbox(area.get(), zero.lon_deg, zero.lat_deg, zero.lon_deg, zero.lat_deg);
+    // PROJ 9.1 never returns from a box that touches 180 degrees, the same meridian as -180.
+    const double lon_deg = zero.lon_deg >= 180.0 ? zero.lon_deg - 360.0 : zero.lon_deg;
+    proj_area_set_bbox(area.get(), lon_deg, zero.lat_deg, lon_deg, zero.lat_deg);
     const std::array<const char*, 2> options{allow_ballpark ? "ALLOW_BALLPARK=YES" : "ALLOW_BALLPARK=NO",
                                              nullptr};
     const Pj candidates(

@@ -48,12 +48,12 @@ struct Target {
 };
 
 /// The products that a manifest lists; nothing when this is no manifest of ours.
-std::optional<std::set<std::string>> productsOf(const fs::path& manifest) {
+std::optional<std::set<std::string>> productsOf(const fs::path& manifest, std::string_view format) {
     std::error_code unknown;
     if (!fs::is_regular_file(manifest, unknown)) return std::nullopt;
     std::ifstream stream(manifest, std::ios::binary);
     const auto json = nlohmann::json::parse(stream, nullptr, false);
-    if (!json.is_object() || !json.contains("format") || json["format"] != kOutputFormat) return std::nullopt;
+    if (!json.is_object() || !json.contains("format") || json["format"] != format) return std::nullopt;
     if (!json.contains("products") || !json["products"].is_array()) return std::nullopt;
     std::set<std::string> products{std::string(kManifestName)};
     for (const auto& product : json["products"]) {
@@ -73,7 +73,7 @@ std::vector<std::string> namesIn(const fs::path& folder, std::error_code& error)
     return names;
 }
 
-Result<Target> inspect(const fs::path& target) {
+Result<Target> inspect(const fs::path& target, std::string_view format) {
     std::error_code error;
     const fs::file_status status = fs::status(target, error);
     if (status.type() == fs::file_type::not_found) return Target{};
@@ -83,7 +83,7 @@ Result<Target> inspect(const fs::path& target) {
     const std::vector<std::string> names = namesIn(target, error);
     if (error) return failed("cannot read the output folder", target, error);
     if (names.empty()) return Target{Content::EmptyFolder, {}};
-    if (auto products = productsOf(target / kManifestName)) {
+    if (auto products = productsOf(target / kManifestName, format)) {
         return Target{Content::EarlierOutput, std::move(*products)};
     }
     return refused(target,
@@ -182,9 +182,9 @@ void removeDeadStaging(const fs::path& target) {
 }
 
 /// Finishes what a run killed between two renames began.
-Result<void> recoverPrevious(const fs::path& target) {
+Result<void> recoverPrevious(const fs::path& target, std::string_view format) {
     const fs::path previous = previousOf(target);
-    if (!productsOf(previous / kManifestName)) return {};
+    if (!productsOf(previous / kManifestName, format)) return {};
     std::error_code error;
     if (!fs::exists(target, error)) {
         fs::rename(previous, target, error);
@@ -302,19 +302,20 @@ Result<void> swapFolders(const fs::path& staging, const fs::path& target) {
 
 }  // namespace
 
-Result<OutputFolder> OutputFolder::create(const fs::path& target) {
+Result<OutputFolder> OutputFolder::create(const fs::path& target, std::string_view format) {
     auto path = resolved(target);
     if (!path) return tl::unexpected(path.error());
     OutputFolder folder;
     folder.target_ = std::move(*path);
+    folder.format_ = format;
     auto made = makeFolders(folder.target_.parent_path());
     if (!made) return tl::unexpected(made.error());
     folder.made_parents_ = std::move(*made);
 
     const FileHandle parent_lock = lockFolder(folder.target_.parent_path());
-    if (auto recovered = recoverPrevious(folder.target_); !recovered)
+    if (auto recovered = recoverPrevious(folder.target_, format); !recovered)
         return tl::unexpected(recovered.error());
-    if (auto content = inspect(folder.target_); !content) return tl::unexpected(content.error());
+    if (auto content = inspect(folder.target_, format); !content) return tl::unexpected(content.error());
     removeDeadStaging(folder.target_);
     for (int attempt = 0; attempt < kMostStagingFolders; ++attempt) {
         const fs::path staging = folder.target_.parent_path() /
@@ -332,12 +333,14 @@ Result<OutputFolder> OutputFolder::create(const fs::path& target) {
 
 OutputFolder::OutputFolder(OutputFolder&& other) noexcept
     : target_(std::move(other.target_)),
+      format_(std::move(other.format_)),
       staging_(std::exchange(other.staging_, {})),
       made_parents_(std::exchange(other.made_parents_, {})),
       lock_(std::move(other.lock_)) {}
 
 OutputFolder& OutputFolder::operator=(OutputFolder&& other) noexcept {
     std::swap(target_, other.target_);
+    std::swap(format_, other.format_);
     std::swap(staging_, other.staging_);
     std::swap(made_parents_, other.made_parents_);
     std::swap(lock_, other.lock_);
@@ -382,7 +385,7 @@ Result<void> OutputFolder::commit() {
 }
 
 Result<void> OutputFolder::swapIn() {
-    const auto target = inspect(target_);
+    const auto target = inspect(target_, format_);
     if (!target) return tl::unexpected(target.error());
     std::error_code error;
     if (target->content != Content::Nothing) {

@@ -10,10 +10,11 @@
 
 namespace terrawalk {
 
-/// What every output folder holds: a JSON object with "format": kOutputFormat and "products", the relative
+/// What every output folder holds: a JSON object with "format", its kind, and "products", the relative
 /// paths of the files in it that Terrawalk wrote.
 inline constexpr std::string_view kManifestName = "manifest.json";
-inline constexpr std::string_view kOutputFormat = "terrawalk-output 1";
+inline constexpr std::string_view kOutputFormat = "terrawalk-output 1";          ///< products of a survey
+inline constexpr std::string_view kSimulationFormat = "terrawalk-simulation 1";  ///< a simulated survey
 
 /// A folder of products that appears whole or not at all. Files are written to a hidden folder beside the
 /// target; `commit` swaps the two in one step, so a run killed at any moment leaves the previous products
@@ -21,14 +22,15 @@ inline constexpr std::string_view kOutputFormat = "terrawalk-output 1";
 /// folders, commit renames twice; a run killed between the two leaves the previous products beside the
 /// target, and the next `create` puts them back.
 ///
-/// A target that exists must be empty or an earlier output (see kOutputFormat); files of others in an earlier
-/// output are carried over, but for the side files (.aux.xml, .ovr, .msk, .tfw) of rasters that are replaced.
-/// Remains of killed runs are removed by the next one. Two runs may write to one target at once: each commits
-/// whole, the later one stays. Errors: Usage for a target that holds something else, System when the disk
-/// refuses.
+/// A target that exists must be empty or an earlier output of the same kind, so that products never replace
+/// the survey they come from; files of others in an earlier output are carried over, but for the side files
+/// (.aux.xml, .ovr, .msk, .tfw) of rasters that are replaced. Remains of killed runs are removed by the next
+/// one. Two runs may write to one target at once: each commits whole, the later one stays. Errors: Usage for
+/// a target that holds something else, System when the disk refuses.
 class OutputFolder {
   public:
-    [[nodiscard]] static Result<OutputFolder> create(const std::filesystem::path& target);
+    [[nodiscard]] static Result<OutputFolder> create(const std::filesystem::path& target,
+                                                     std::string_view format = kOutputFormat);
     OutputFolder(OutputFolder&& other) noexcept;
     OutputFolder& operator=(OutputFolder&& other) noexcept;
     ~OutputFolder();
@@ -45,6 +47,7 @@ class OutputFolder {
     [[nodiscard]] Result<void> swapIn();
     void discard() noexcept;
     std::filesystem::path target_;
+    std::string format_;
     std::filesystem::path staging_;                    ///< empty once there is nothing to remove
     std::vector<std::filesystem::path> made_parents_;  ///< innermost first
     FileHandle lock_;  ///< held on the staging folder, so that a second run sees that this one is alive

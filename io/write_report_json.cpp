@@ -132,6 +132,8 @@ Json runJson(const RunReport& run) {
             {"late_lines", run.late_lines},
             {"cut_off_line", run.cut_off_line > 0 ? Json(run.cut_off_line) : Json(nullptr)},
             {"duration_s", jsonNumber(run.duration_s)},
+            {"gaps", run.gaps},
+            {"longest_gap_s", run.longest_gap_s},
             {"distance_m", jsonNumber(run.distance_m)},
             {"fixes", reasonsJson(run.fixes)},
             {"sensors", listOf(run.sensors, sensorJson)},

@@ -147,7 +147,10 @@ KeyFigure heightFigure(const SurveyReport& report) {
     }
     std::string detail = "at " + counted(group->up->marks, "check mark");
     if (const auto change = gain(report, *group)) {
-        detail += fmt::format("; {} before fusion", metres(change->before_m));
+        detail += change->marks == group->up->marks
+                      ? fmt::format("; {} before fusion", metres(change->before_m))
+                      : fmt::format("; {} before fusion and {} now at the {} that both reach",
+                                    metres(change->before_m), metres(change->after_m), change->marks);
     } else if (group->stage == Stage::BeforeFusion) {
         detail += "; sensors as they are";
     }

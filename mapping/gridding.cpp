@@ -257,9 +257,12 @@ double suggestCellSize(double area_m2, std::size_t points) {
     return cellSizeStep(step);
 }
 
+constexpr double kLeastCell_m = 0.001;
+
 Result<GridGeometry> gridCovering(const TriangleMesh& mesh, double cell_m, std::size_t greatest_cell_count) {
-    if (!(cell_m > 0.0) || !std::isfinite(cell_m)) {
-        return usageError(fmt::format("a cell of {} m is none", cell_m), "ask for a resolution above zero");
+    if (!(cell_m >= kLeastCell_m) || !std::isfinite(cell_m)) {
+        return usageError(fmt::format("a cell of {} m is none", cell_m),
+                          "ask for a resolution of a millimetre or more");
     }
     if (mesh.vertices_m.empty()) {
         return badData("there is no surface to make a grid of");

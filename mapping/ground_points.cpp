@@ -56,10 +56,13 @@ Eigen::Vector3d sigmas(const TrajectoryEpoch& epoch, const Ray& ray, double sigm
     return variance.cwiseSqrt();
 }
 
-bool positionUnsure(const TrajectoryEpoch& epoch, double greatest_sigma_m) {
-    const double variance_m2 = std::max(epoch.covariance(0, 0), epoch.covariance(1, 1));
-    const bool sure = epoch.position_enu_m.allFinite() && epoch.covariance(0, 0) >= 0.0 &&
-                      epoch.covariance(1, 1) >= 0.0 && variance_m2 <= square(greatest_sigma_m);
+bool positionUnsure(const TrajectoryEpoch& epoch, const GroundPointOptions& options) {
+    const auto within = [&](Eigen::Index axis, double greatest_sigma_m) {
+        const double variance_m2 = epoch.covariance(axis, axis);
+        return variance_m2 >= 0.0 && variance_m2 <= square(greatest_sigma_m);
+    };
+    const bool sure = epoch.position_enu_m.allFinite() && within(0, options.greatest_sigma_m) &&
+                      within(1, options.greatest_sigma_m) && within(2, options.greatest_sigma_u_m);
     return !sure;
 }
 
@@ -80,7 +83,7 @@ GroundPointState stateOf(double range_m, double strength, const Ray& ray, const 
     if (!(ray.tilt_rad <= options.greatest_tilt_rad)) {
         return GroundPointState::Tilted;
     }
-    if (positionUnsure(epoch, options.greatest_sigma_m)) {
+    if (positionUnsure(epoch, options)) {
         return GroundPointState::PositionUnsure;
     }
     return GroundPointState::Used;
@@ -219,10 +222,11 @@ bool isSpike(const std::vector<TrackPoint>& track, std::size_t i, const GroundPo
 }
 
 void markSpikes(std::vector<GroundPoint>& points, const Trajectory& trajectory,
-                const GroundPointOptions& options) {
+                const GroundPointOptions& options, const std::stop_token& stop) {
     const std::vector<TrackPoint> track = goodTrackPoints(points, trajectory);
     Scratch scratch;
     for (std::size_t i = 0; i < track.size(); ++i) {
+        if (i % 1024 == 0 && stop.stop_requested()) return;
         if (isSpike(track, i, options, scratch)) {
             points[track[i].index].state = GroundPointState::Spike;
         }
@@ -232,7 +236,7 @@ void markSpikes(std::vector<GroundPoint>& points, const Trajectory& trajectory,
 }  // namespace
 
 std::vector<GroundPoint> groundPoints(const Run& run, std::uint32_t run_index, const Trajectory& trajectory,
-                                      const GroundPointOptions& options) {
+                                      const GroundPointOptions& options, std::stop_token stop) {
     assert(trajectory.epochs.size() == run.log.size());
     std::vector<GroundPoint> points;
     points.reserve(trajectory.epochs.size());
@@ -241,7 +245,7 @@ std::vector<GroundPoint> groundPoints(const Run& run, std::uint32_t run_index, c
         points.back().run = run_index;
     }
     if (options.spike_sigma > 0.0) {
-        markSpikes(points, trajectory, options);
+        markSpikes(points, trajectory, options, stop);
     }
     return points;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 #include "survey/ground_point.hpp"
@@ -23,6 +24,7 @@ struct GroundPointOptions {
     double greatest_strength = 2000.0;
     double greatest_tilt_rad = kPi / 6.0;  ///< between the ray and the vertical
     double greatest_sigma_m = 50.0;        ///< of the array's position, east or north, whichever is larger
+    double greatest_sigma_u_m = 5.0;       ///< of the array's height
 
     /// How many robust sigmas a point may stand off its neighbours along the track; 0: no check.
     double spike_sigma = 5.0;
@@ -51,10 +53,12 @@ struct GroundPointOptions {
 /// cannot be told from one; and a hand less than a window away from a riser may stay.
 ///
 /// Pure; safe from any thread; linear in the number of epochs.
+/// After a stop request the points are incomplete, to be thrown away.
 /// @param run_index   goes into the points
 /// @param trajectory  one epoch for each epoch of the run's log
 [[nodiscard]] std::vector<GroundPoint> groundPoints(const Run& run, std::uint32_t run_index,
                                                     const Trajectory& trajectory,
-                                                    const GroundPointOptions& options);
+                                                    const GroundPointOptions& options,
+                                                    std::stop_token stop = {});
 
 }  // namespace terrawalk

@@ -13,6 +13,7 @@ namespace {
 
 bool hasSoundRange(const GroundPoint& point) {
     const bool sound = point.state == GroundPointState::Used || point.state == GroundPointState::Thinned ||
+                       point.state == GroundPointState::RunLeftOut ||
                        point.state == GroundPointState::PositionUnsure;
     return sound && point.enu_m.allFinite();
 }
@@ -41,17 +42,25 @@ Residual residualAt(const ControlMark& mark, Stage stage, Quantity quantity) {
     return residual;
 }
 
-Residual positionResidual(const MarkStand& stand, const std::vector<const GroundPoint*>& points,
-                          Stage stage) {
+Residual positionResidual(const MarkStand& stand, const Trajectory& trajectory,
+                          const std::vector<const GroundPoint*>& points, Stage stage) {
     Residual residual = residualAt(stand.mark, stage, Quantity::ArrayPosition);
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    for (Eigen::Index axis = 0; axis < 2; ++axis) {
         residual.difference_enu_m[axis] =
-            medianOf(points, [&](const GroundPoint& p) { return p.enu_m[axis]; }) - stand.mark.enu_m[axis];
+            medianOf(points,
+                     [&](const GroundPoint& p) { return trajectory.epochs[p.epoch].position_enu_m[axis]; }) -
+            stand.mark.enu_m[axis];
+        residual.sigma_enu_m[axis] =
+            std::hypot(medianOf(points,
+                                [&](const GroundPoint& p) {
+                                    return std::sqrt(trajectory.epochs[p.epoch].covariance(axis, axis));
+                                }),
+                       stand.mark.sigma_h_m);
     }
-    residual.sigma_enu_m = {
-        std::hypot(medianOf(points, [](const GroundPoint& p) { return p.sigma_e_m; }), stand.mark.sigma_h_m),
-        std::hypot(medianOf(points, [](const GroundPoint& p) { return p.sigma_n_m; }), stand.mark.sigma_h_m),
-        std::hypot(medianOf(points, [](const GroundPoint& p) { return p.sigma_u_m; }), stand.mark.sigma_v_m)};
+    residual.difference_enu_m.z() =
+        medianOf(points, [](const GroundPoint& p) { return p.enu_m.z(); }) - stand.mark.enu_m.z();
+    residual.sigma_enu_m.z() =
+        std::hypot(medianOf(points, [](const GroundPoint& p) { return p.sigma_u_m; }), stand.mark.sigma_v_m);
     return residual;
 }
 
@@ -110,7 +119,8 @@ std::set<std::string> tiedMarks(const Survey& survey, const StandOptions& option
 }
 
 MarkResiduals positionResiduals(const Run& run, const std::vector<MarkStand>& stands,
-                                const std::vector<GroundPoint>& points, Stage stage, bool tied) {
+                                const Trajectory& trajectory, const std::vector<GroundPoint>& points,
+                                Stage stage, bool tied) {
     MarkResiduals out;
     for (const MarkStand& stand : stands) {
         if (stand.place == StandPlace::Start && stand.may_tie) continue;
@@ -124,7 +134,7 @@ MarkResiduals positionResiduals(const Run& run, const std::vector<MarkStand>& st
             out.missing.push_back({stage, Quantity::ArrayPosition, stand.mark.name, stand.mark.role, run.id});
             continue;
         }
-        Residual residual = positionResidual(stand, on_mark, stage);
+        Residual residual = positionResidual(stand, trajectory, on_mark, stage);
         residual.run = run.id;
         residual.used_by_estimator = tied && stand.may_tie;
         out.residuals.push_back(std::move(residual));

@@ -10,6 +10,7 @@
 #include "survey/mark_stands.hpp"
 #include "survey/survey.hpp"
 #include "survey/survey_report.hpp"
+#include "survey/trajectory.hpp"
 
 namespace terrawalk {
 
@@ -24,14 +25,18 @@ struct MarkResiduals {
 /// empty set for products that no estimator made (before fusion, raw).
 [[nodiscard]] std::set<std::string> tiedMarks(const Survey& survey, const StandOptions& options);
 
-/// Ground below the array while it stood on a mark: the median of each axis over the epochs of the stand, so
-/// that single bad ranges do no harm. Counts every point with a sound range, thinned or not, unsure of its
-/// position or not: to leave unsure positions out would hide the worst errors. The sigma is the median of the
-/// points' sigmas, undivided because errors within a second or two are one error, with the mark's own. A
-/// start mark to which the estimator may be tied is left out: heights are counted from there in every method.
+/// The array while it stood on a mark: in plan its own position, for it is the array that is held over a mark
+/// and not the spot that a tilted laser hits; in height the ground that the range finder saw. Each axis is
+/// the median over the epochs of the stand, so that single bad ranges do no harm. Counts every epoch with a
+/// sound range, thinned or not, unsure of its position or not: to leave unsure positions out would hide the
+/// worst errors. The sigma is the median of the epochs' sigmas, undivided because errors within a second or
+/// two are one error, with the mark's own. A start mark to which the estimator may be tied is left out:
+/// heights are counted from there in every method.
+/// @param trajectory  of this run
 /// @param points  those of this run, any order
 /// @param tied    whether the estimator was tied to the stands that allow it
 [[nodiscard]] MarkResiduals positionResiduals(const Run& run, const std::vector<MarkStand>& stands,
+                                              const Trajectory& trajectory,
                                               const std::vector<GroundPoint>& points, Stage stage, bool tied);
 
 struct NearestSampleOptions {

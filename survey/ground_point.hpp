@@ -20,8 +20,9 @@ enum class GroundPointState : std::uint8_t {
     PositionUnsure,  ///< sigma of the position above the limit
     Spike,           ///< stands off from its neighbours along the track
     Thinned,         ///< another point stands for this cell
+    RunLeftOut,      ///< its run was not asked for
 };
-inline constexpr std::size_t kGroundPointStateCount = 10;
+inline constexpr std::size_t kGroundPointStateCount = 11;
 
 /// Short stable text for files: "used", "no range", ...
 [[nodiscard]] std::string_view name(GroundPointState state);

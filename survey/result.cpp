@@ -4,10 +4,8 @@
 
 namespace terrawalk {
 
-namespace {
-
 // Bytes quoted from a damaged file must not reach a terminal as control codes or as broken UTF-8.
-std::string printable(const std::string& text) {
+std::string printable(std::string_view text) {
     std::string out;
     out.reserve(text.size());
     for (std::size_t i = 0; i < text.size();) {
@@ -25,7 +23,7 @@ std::string printable(const std::string& text) {
         if (whole && length == 2 && byte == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0)
             whole = false;
         if (whole) {
-            out.append(text, i, length);
+            out.append(text.substr(i, length));
             i += length;
         } else {
             out += fmt::format("\\x{:02x}", byte);
@@ -34,8 +32,6 @@ std::string printable(const std::string& text) {
     }
     return out;
 }
-
-}  // namespace
 
 std::string Error::text() const {
     std::string out;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <tl/expected.hpp>
 
 namespace terrawalk {
@@ -26,6 +27,9 @@ struct Error {
     /// One line without control characters, whatever bytes the message quotes from a file.
     [[nodiscard]] std::string text() const;
 };
+
+/// Text from a file without control characters or broken UTF-8, fit for a terminal: such bytes become \\xNN.
+[[nodiscard]] std::string printable(std::string_view text);
 
 template <class T>
 using Result = tl::expected<T, Error>;

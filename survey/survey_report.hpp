@@ -122,7 +122,9 @@ struct RunReport {
     std::vector<std::size_t> late_lines;
     std::size_t cut_off_line = 0;
     double duration_s = 0.0;
-    double distance_m = 0.0;           ///< length of the fused track
+    double distance_m = 0.0;  ///< length of the fused track
+    std::size_t gaps = 0;     ///< steps between records of more than 2.5 usual ones
+    double longest_gap_s = 0.0;
     std::vector<CountedReason> fixes;  ///< epochs by GNSS fix
     std::vector<SensorUse> sensors;
     std::size_t ground_points_used = 0;

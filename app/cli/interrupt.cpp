@@ -13,6 +13,7 @@ sigset_t handledSignals() {
     sigemptyset(&set);
     sigaddset(&set, SIGINT);
     sigaddset(&set, SIGTERM);
+    sigaddset(&set, SIGHUP);  // the terminal was closed
     return set;
 }
 
@@ -24,6 +25,8 @@ constexpr int kExitOnSecondSignal = 4;
 Interrupt::Interrupt() {
     const sigset_t set = handledSignals();
     pthread_sigmask(SIG_BLOCK, &set, nullptr);
+    // A file above the permitted size is an error of writing, not a reason to die.
+    signal(SIGXFSZ, SIG_IGN);
     waiter_ = std::jthread([this](const std::stop_token& finished) {
         const sigset_t waited = handledSignals();
         while (!finished.stop_requested()) {

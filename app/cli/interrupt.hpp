@@ -5,9 +5,9 @@
 
 namespace terrawalk {
 
-/// Turns Ctrl-C (SIGINT) and SIGTERM into a stop request. To be made before any other thread, since it blocks
-/// the signals for this thread and its children and waits for them in a thread of its own. A second signal
-/// ends the program at once.
+/// Turns Ctrl-C (SIGINT), SIGTERM and SIGHUP into a stop request. To be made before any other thread, since
+/// it blocks the signals for this thread and its children and waits for them in a thread of its own. A second
+/// signal ends the program at once.
 class Interrupt {
   public:
     Interrupt();

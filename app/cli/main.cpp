@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,9 +59,14 @@ struct SimulateArguments {
     SimulationOptions options;
 };
 
+// Without fmt: a closed standard error must not turn into an exception.
+void printError(const std::string& text) {
+    std::fputs(("terrawalk: " + text + "\n").c_str(), stderr);
+}
+
 int fail(const Error& error, const Common& common, TerminalProgress& progress) {
     progress.clear();
-    fmt::print(stderr, "terrawalk: {}\n", error.text());
+    printError(error.text());
     if (common.json) fmt::print("{}\n", errorJson(error));
     return exitCode(error.kind);
 }
@@ -123,7 +130,7 @@ int runProcess(const ProcessArguments& arguments, const Common& common, Terminal
     if (common.json) {
         fmt::print("{}", summaryJson(*products, arguments.output));
     } else if (!common.quiet) {
-        fmt::print("Written to {}\n{}", arguments.output.string(), summaryText(*products));
+        fmt::print("Written to {}\n{}", printable(arguments.output.string()), summaryText(*products));
     }
     return 0;
 }
@@ -243,5 +250,18 @@ int run(int argc, char** argv) {
 }  // namespace terrawalk
 
 int main(int argc, char** argv) {
-    return terrawalk::run(argc, argv);
+    using namespace terrawalk;
+    int code = exitCode(ErrorKind::System);
+    try {
+        code = run(argc, argv);
+    } catch (const std::bad_alloc&) {
+        printError("not enough memory");
+    } catch (const std::exception& error) {
+        printError(error.what());
+    }
+    if (std::fflush(stdout) != 0 && code == 0) {
+        printError("standard output cannot be written");
+        code = exitCode(ErrorKind::System);
+    }
+    return code;
 }

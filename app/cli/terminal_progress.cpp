@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "survey/result.hpp"
+
 namespace terrawalk {
 
 namespace {
@@ -33,7 +35,7 @@ void TerminalProgress::report(double fraction, std::string_view step) {
     if (drawn_ && now - last_drawn_ < std::chrono::milliseconds(80)) return;
     last_drawn_ = now;
     const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-    std::string line = fmt::format("\r\033[K[{:3.0f} %] {}", 100.0 * furthest_, step);
+    std::string line = fmt::format("\r\033[K[{:3.0f} %] {}", 100.0 * furthest_, printable(step));
     // Below a second or a twentieth of the work the estimate is a guess, and a wrong one.
     if (elapsed_s > 1.0 && furthest_ > 0.05 && furthest_ < 1.0) {
         line += ", " + timeLeft(elapsed_s * (1.0 - furthest_) / furthest_);
@@ -46,7 +48,9 @@ void TerminalProgress::message(Severity severity, std::string_view text) {
     if (quiet_) return;
     const std::lock_guard lock(mutex_);
     clearLocked();
-    fmt::print(stderr, "{}{}\n", severity == Severity::Warning ? "warning: " : "", text);
+    std::fputs(
+        fmt::format("{}{}\n", severity == Severity::Warning ? "warning: " : "", printable(text)).c_str(),
+        stderr);
 }
 
 void TerminalProgress::clear() {

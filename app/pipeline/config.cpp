@@ -137,7 +137,7 @@ std::vector<Parameter> fusionParameters() {
                TERRAWALK_FIELD(fusion.stands.start_s)),
         number("fusion.stands.target_s", 0.2, 600, "still seconds at a target mark",
                TERRAWALK_FIELD(fusion.stands.target_s)),
-        number("fusion.unscented.alpha", 0.0001, 1, "spread of the sigma points",
+        number("fusion.unscented.alpha", 0.0001, 1, "spread of the sigma points; used by the yaw row only",
                TERRAWALK_FIELD(fusion.unscented.alpha)),
         number("fusion.unscented.beta", 0, 10, "weight of the centre point, 2 for a Gaussian",
                TERRAWALK_FIELD(fusion.unscented.beta)),
@@ -188,7 +188,8 @@ std::vector<Parameter> fusionParameters() {
         choice<GnssHeightUse>(
             "fusion.gnss.use_height",
             {{"never", GnssHeightUse::Never}, {"rtk", GnssHeightUse::Rtk}, {"always", GnssHeightUse::Always}},
-            "when the GNSS height is used; rtk: with an RTK fix, fixed or float",
+            "when the GNSS height is used; rtk: with an RTK fix, fixed or float, and with any fix while no "
+            "barometer tells",
             TERRAWALK_FIELD(fusion.gnss.use_height)),
         number("fusion.gnss.sigma_single_m", 0.0001, 1000, "position, single point, per horizontal axis",
                TERRAWALK_FIELD(fusion.gnss.sigma_single_m)),
@@ -230,6 +231,9 @@ std::vector<Parameter> fusionParameters() {
                TERRAWALK_FIELD(fusion.barometer.gust_sigma_m)),
         number("fusion.barometer.gust_correlation_s", 0, 10000.0, "length of a gust",
                TERRAWALK_FIELD(fusion.barometer.gust_correlation_s)),
+        number("fusion.barometer.longest_silence_s", 0, 1e5,
+               "after this silence GNSS heights of any fix stand in, unless never",
+               TERRAWALK_FIELD(fusion.barometer.longest_silence_s)),
         number("fusion.barometer.drift_m_per_sqrt_min", 0, 100,
                "drift since the barometer was zeroed, m per root of a minute",
                TERRAWALK_FIELD(fusion.barometer.drift_m_per_sqrt_min)),
@@ -240,6 +244,9 @@ std::vector<Parameter> fusionParameters() {
                TERRAWALK_FIELD(fusion.flow.variance_per_v2)),
         number("fusion.flow.scale_sigma", 0, 1, "lasting error of scale, as a share of the speed",
                TERRAWALK_FIELD(fusion.flow.scale_sigma)),
+        number("fusion.flow.correlation_s", 0, 1e5,
+               "for how long errors of scale and heading keep their direction",
+               TERRAWALK_FIELD(fusion.flow.correlation_s)),
         number("fusion.flow.smallest_quality", 0, 255, "flow_quality below this is rejected",
                TERRAWALK_FIELD(fusion.flow.smallest_quality)),
         flag("fusion.flow.bridge_dropouts", "let the recent mean flow stand in for missing readings",
@@ -248,6 +255,9 @@ std::vector<Parameter> fusionParameters() {
                TERRAWALK_FIELD(fusion.flow.bridge_after_s)),
         number("fusion.flow.bridge_sigma_mps", 0.001, 100, "of the mean that stands in",
                TERRAWALK_FIELD(fusion.flow.bridge_sigma_mps)),
+        number("fusion.flow.bridge_longest_s", 0, 1e5,
+               "the mean stands in no longer than this after the last flow reading",
+               TERRAWALK_FIELD(fusion.flow.bridge_longest_s)),
         number("fusion.flow.bridge_memory_s", 0.1, 10000.0, "over which the mean is taken",
                TERRAWALK_FIELD(fusion.flow.bridge_memory_s)),
         flag("fusion.accelerometer.use", "use the accelerometer", TERRAWALK_FIELD(fusion.accelerometer.use)),
@@ -285,6 +295,9 @@ std::vector<Parameter> fusionParameters() {
                TERRAWALK_FIELD(fusion.ties.range_sigma_m)),
         number("fusion.ties.correlation_s", 0, 10000.0, "of both",
                TERRAWALK_FIELD(fusion.ties.correlation_s)),
+        number("fusion.ties.range_tolerance_m", 0.001, 100,
+               "a range that far from the median of the stand is left out",
+               TERRAWALK_FIELD(fusion.ties.range_tolerance_m)),
         number("fusion.ties.shortest_range_m", 0, 100, "shorter ranges on a mark are not believed",
                TERRAWALK_FIELD(fusion.ties.shortest_range_m)),
         number("fusion.ties.longest_range_m", 0, 1000, "longer ranges on a mark are not believed",
@@ -299,6 +312,8 @@ std::vector<Parameter> fusionParameters() {
                TERRAWALK_FIELD(fusion.robust.huber_sigma)),
         number("fusion.robust.gate_sigma", 0.5, 1000, "beyond this a reading is rejected",
                TERRAWALK_FIELD(fusion.robust.gate_sigma)),
+        number("fusion.robust.longest_gap_s", 0.1, 1e5, "a silence this long ends a spell of rejections",
+               TERRAWALK_FIELD(fusion.robust.longest_gap_s)),
         number("fusion.robust.readmit_after_s", 0.1, 100000.0,
                "a sensor rejected for so long is believed again",
                TERRAWALK_FIELD(fusion.robust.readmit_after_s)),
@@ -312,6 +327,9 @@ std::vector<Parameter> fusionParameters() {
         number("fusion.divergence.rejected_share", 0, 1,
                "a larger share of rejected GNSS positions ends the run with an error",
                TERRAWALK_FIELD(fusion.divergence.rejected_share)),
+        integer("fusion.divergence.fewest_rejected", 1, 1000000,
+                "rejected GNSS positions before their share counts",
+                TERRAWALK_FIELD(fusion.divergence.fewest_rejected)),
         number("fusion.divergence.rejected_window_s", 1, 1000000.0, "over which the share is taken",
                TERRAWALK_FIELD(fusion.divergence.rejected_window_s)),
     };
@@ -337,6 +355,8 @@ std::vector<Parameter> groundParameters() {
               TERRAWALK_FIELD(ground.greatest_tilt_rad)),
         number("ground.greatest_sigma_m", 0.001, 1e6, "points of a less sure position are left out",
                TERRAWALK_FIELD(ground.greatest_sigma_m)),
+        number("ground.greatest_sigma_u_m", 0.001, 1e6, "points of a less sure height are left out",
+               TERRAWALK_FIELD(ground.greatest_sigma_u_m)),
         number("ground.spike_sigma", 0, 1000,
                "robust sigmas off the neighbours that make a spike; 0: no check",
                TERRAWALK_FIELD(ground.spike_sigma)),
@@ -368,6 +388,11 @@ std::vector<Parameter> surfaceParameters() {
                 "of the confidence intervals in the report", TERRAWALK_FIELD(seed)),
     };
 }
+
+// An option that is added without a parameter could be neither set nor reported.
+static_assert(sizeof(FusionOptions) == 688, "add the new option to fusionParameters()");
+static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
+static_assert(sizeof(SurfaceOptions) == 32, "add the new option to surfaceParameters()");
 
 const std::vector<Parameter>& parameters() {
     static const std::vector<Parameter> kParameters = [] {
@@ -474,6 +499,8 @@ Result<void> applyConfigFile(PipelineConfig& config, const std::filesystem::path
         const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(problem.byte, text.size()));
         return badData("is not valid JSON", file,
                        1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n')));
+    } catch (const json::exception&) {
+        return badData("holds a number that is too large", file);
     }
     if (!document.is_object()) return badData("must hold one JSON object", file, 1);
     if (auto done = applyObject(config, document, ""); !done) {

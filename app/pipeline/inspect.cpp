@@ -6,6 +6,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "mapping/order_statistics.hpp"
+#include "survey/result.hpp"
+
 namespace terrawalk {
 
 namespace {
@@ -28,13 +31,6 @@ const std::vector<SensorColumns>& sensorTable() {
         {"range finder", {Channel::Range, Channel::RangeStrength}},
     };
     return kTable;
-}
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 std::optional<SensorSummary> inspectSensor(const ArrayLog& log, const SensorColumns& sensor) {
@@ -63,7 +59,8 @@ std::optional<SensorSummary> inspectSensor(const ArrayLog& log, const SensorColu
     if (summary.epochs == 0) return std::nullopt;
     if (!steps_s.empty()) {
         summary.longest_gap_s = *std::max_element(steps_s.begin(), steps_s.end());
-        summary.rate_hz = 1.0 / median(std::move(steps_s));
+        const double step_s = median(std::move(steps_s));
+        summary.rate_hz = step_s > 1e-9 ? 1.0 / step_s : 0.0;
     }
     return summary;
 }
@@ -149,8 +146,8 @@ std::string toText(const LogSummary& s) {
         out += fmt::vformat(format, fmt::make_format_args(args...));
         out += '\n';
     };
-    line("{}{}", s.run_id.empty() ? "" : s.run_id + "  ", s.file);
-    if (!s.device.empty()) line("  device    {}", s.device);
+    line("{}{}", s.run_id.empty() ? "" : s.run_id + "  ", printable(s.file));
+    if (!s.device.empty()) line("  device    {}", printable(s.device));
     if (!s.start_utc.empty()) line("  start     {}", s.start_utc);
     line("  epochs    {}, {:.1f} s, every {:.3f} s", s.epochs, s.duration_s, s.interval_s);
     line("  gaps      {} (longest {:.1f} s)", s.gaps, s.longest_gap_s);
@@ -177,7 +174,7 @@ std::string toText(const LogSummary& s) {
              100.0 * static_cast<double>(fix.count) / static_cast<double>(fixes));
     }
     if (!s.missing.empty()) line("  missing   {}", fmt::join(s.missing, ", "));
-    for (const std::string& note : s.read_report.notes) line("  note      {}", note);
+    for (const std::string& note : s.read_report.notes) line("  note      {}", printable(note));
     return out;
 }
 

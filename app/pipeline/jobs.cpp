@@ -26,6 +26,16 @@ fs::path projectFileOf(const fs::path& path) {
     return fs::is_directory(path, error) ? path / kProjectFile : path;
 }
 
+/// Whether replacing the folder would take the file with it.
+bool liesIn(const fs::path& file, const fs::path& folder) {
+    std::error_code error;
+    const fs::path inner = fs::weakly_canonical(file, error);
+    const fs::path outer = fs::weakly_canonical(folder / "", error);
+    const fs::path trimmed = outer.has_filename() ? outer : outer.parent_path();
+    return !error &&
+           std::mismatch(trimmed.begin(), trimmed.end(), inner.begin(), inner.end()).first == trimmed.end();
+}
+
 /// True heights over everything that was walked, in the local frame.
 ElevationGrid truthGrid(const SimulatedSurvey& simulated, double cell_m) {
     Eigen::Vector2d least = Eigen::Vector2d::Zero();
@@ -84,7 +94,7 @@ std::vector<double> listed(const Eigen::Vector3d& v) {
 std::string simulationManifest(const SimulationOptions& o, const Survey& survey,
                                std::vector<std::string> files) {
     files.emplace_back("manifest.json");
-    const nlohmann::ordered_json manifest{{"format", "terrawalk-output 1"},
+    const nlohmann::ordered_json manifest{{"format", kSimulationFormat},
                                           {"program", programVersion()},
                                           {"simulated", true},
                                           {"survey", survey.name},
@@ -121,6 +131,12 @@ Result<Products> processSurvey(const fs::path& path, const PipelineConfig& confi
                                const Provenance& provenance, const fs::path& output, Progress& progress,
                                std::stop_token stop) {
     // A folder that may not be replaced is said at once, not after the work.
+    const fs::path project_file = projectFileOf(path);
+    if (liesIn(project_file, output)) {
+        return usageError(
+            fmt::format("the survey {} lies in the output folder {}", project_file.string(), output.string()),
+            "choose another folder for the output");
+    }
     auto folder = OutputFolder::create(output);
     if (!folder) return tl::unexpected(folder.error());
     PartialProgress reading(progress, 0.0, 0.2);
@@ -141,7 +157,7 @@ Result<Products> processSurvey(const fs::path& path, const PipelineConfig& confi
 
 Result<void> simulateSurveyFolder(const SimulationOptions& options, const fs::path& output,
                                   Progress& progress, std::stop_token stop) {
-    auto folder = OutputFolder::create(output);
+    auto folder = OutputFolder::create(output, kSimulationFormat);
     if (!folder) return tl::unexpected(folder.error());
     PartialProgress simulating(progress, 0.0, 0.6);
     const auto simulated = simulateSurvey(options, simulating, stop);

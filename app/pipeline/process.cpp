@@ -17,6 +17,7 @@
 #include "mapping/accuracy_statements.hpp"
 #include "mapping/gridding.hpp"
 #include "mapping/mark_residuals.hpp"
+#include "mapping/order_statistics.hpp"
 #include "mapping/thinning.hpp"
 
 namespace terrawalk {
@@ -30,21 +31,56 @@ struct GroundTrack {
     std::vector<std::size_t> first_point;  ///< of each run, and the end
 };
 
+/// Progress of runs that are worked on side by side, each weighing as much as its log is long.
+class SideBySide {
+  public:
+    SideBySide(const Survey& survey, Progress& progress) : progress_(progress), parts_(survey.runs.size()) {
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            parts_[i].whole = this;
+            parts_[i].weight = static_cast<double>(survey.runs[i].log.size());
+            weight_ += parts_[i].weight;
+        }
+    }
+    Progress& of(std::size_t run) { return parts_[run]; }
+
+  private:
+    struct Part final : Progress {
+        void report(double fraction, std::string_view step) override {
+            done = fraction * weight;
+            whole->report(step);
+        }
+        void message(Severity severity, std::string_view text) override {
+            whole->progress_.message(severity, text);
+        }
+        SideBySide* whole = nullptr;
+        double weight = 0.0;
+        std::atomic<double> done{0.0};
+    };
+    void report(std::string_view step) {
+        double done = 0.0;
+        for (const Part& part : parts_) done += part.done;
+        progress_.report(weight_ > 0.0 ? done / weight_ : 1.0, step);
+    }
+    Progress& progress_;
+    std::vector<Part> parts_;
+    double weight_ = 0.0;
+};
+
 Result<GroundTrack> trackGround(const Survey& survey, const FusionOptions& fusion,
                                 const GroundPointOptions& ground, Progress& progress,
                                 const std::stop_token& stop) {
     const std::size_t n = survey.runs.size();
     std::vector<Result<FusedRun>> fused(n, cancelled());
     std::vector<std::vector<GroundPoint>> points(n);
-    std::atomic<std::size_t> done{0};
+    SideBySide parts(survey, progress);
     tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
         if (stop.stop_requested()) return;
         const Run& run = survey.runs[i];
-        SilentProgress silent;
-        fused[i] = fuseRun(survey, run, fusion, silent, stop);
+        PartialProgress fusing(parts.of(i), 0.0, 0.8);
+        fused[i] = fuseRun(survey, run, fusion, fusing, stop);
         if (!fused[i]) return;
-        points[i] = groundPoints(run, static_cast<std::uint32_t>(i), fused[i]->trajectory, ground);
-        progress.report(static_cast<double>(++done) / static_cast<double>(n), "following run " + run.id);
+        points[i] = groundPoints(run, static_cast<std::uint32_t>(i), fused[i]->trajectory, ground, stop);
+        parts.of(i).report(1.0, "ground points of " + run.id);
     });
     if (stop.stop_requested()) return cancelled();
     GroundTrack track;
@@ -70,6 +106,7 @@ std::vector<GroundPoint> pointsOfRun(const std::vector<GroundPoint>& points, con
 struct Comparison {
     std::vector<Residual> residuals;
     std::vector<MissingResidual> missing;
+    std::vector<std::string> limitations;
     void add(MarkResiduals more) {
         residuals.insert(residuals.end(), more.residuals.begin(), more.residuals.end());
         missing.insert(missing.end(), more.missing.begin(), more.missing.end());
@@ -82,7 +119,8 @@ void compareTrack(const Survey& survey, const GroundTrack& track, const Pipeline
     for (std::size_t i = 0; i < survey.runs.size(); ++i) {
         const Run& run = survey.runs[i];
         comparison.add(positionResiduals(run, markStands(survey, run, config.fusion.stands),
-                                         pointsOfRun(track.points, track, i), stage, tied));
+                                         track.runs[i].trajectory, pointsOfRun(track.points, track, i), stage,
+                                         tied));
     }
     const std::set<std::string> tied_marks =
         tied ? tiedMarks(survey, config.fusion.stands) : std::set<std::string>{};
@@ -90,18 +128,26 @@ void compareTrack(const Survey& survey, const GroundTrack& track, const Pipeline
                                           {.greatest_distance_m = config.report.nearest_sample_limit_m}));
 }
 
-/// The points that make the surface, in the map frame. Points of runs that are left out keep their state:
-/// they are good ground points all the same.
-Result<std::vector<Eigen::Vector3d>> surfacePoints(const Survey& survey,
-                                                   const std::vector<GroundPoint>& points,
-                                                   bool fixed_point_runs, const MapProjection& projection) {
-    std::vector<Eigen::Vector3d> chosen;
-    for (const GroundPoint& point : points) {
-        if (point.state != GroundPointState::Used) continue;
-        if (!fixed_point_runs && survey.runs[point.run].kind == RunKind::FixedPoint) continue;
-        chosen.push_back(point.enu_m);
+/// The points that shall carry the surface: of the runs that were asked for, one in each cell. Runs are left
+/// out before cells are thinned, so that none of their points stands for a cell.
+std::vector<GroundPoint> surfacePoints(const Survey& survey, std::vector<GroundPoint> points,
+                                       const SurfaceOptions& options) {
+    if (!options.fixed_point_runs) {
+        for (GroundPoint& point : points) {
+            const bool left_out = survey.runs[point.run].kind == RunKind::FixedPoint;
+            if (left_out && point.state == GroundPointState::Used) point.state = GroundPointState::RunLeftOut;
+        }
     }
-    return projection.toMap(chosen);
+    return thinGroundPoints(std::move(points), options.thinning_cell_m);
+}
+
+Result<std::vector<Eigen::Vector3d>> usedInMap(const std::vector<GroundPoint>& points,
+                                               const MapProjection& projection) {
+    std::vector<Eigen::Vector3d> used;
+    for (const GroundPoint& point : points) {
+        if (point.state == GroundPointState::Used) used.push_back(point.enu_m);
+    }
+    return projection.toMap(used);
 }
 
 double distanceWalked(const Trajectory& trajectory) {
@@ -138,7 +184,10 @@ RunReport reportRun(const Run& run, const FusedRun& fused, const std::vector<Gro
     report.cut_off_line = run.log.read_report.cut_off_line;
     report.duration_s = run.log.time_s.back() - run.log.time_s.front();
     report.distance_m = distanceWalked(fused.trajectory);
-    report.fixes = fixShares(run.log);
+    const LogSummary looked_at = inspectLog(run.log, run.id);
+    report.gaps = looked_at.gaps;
+    report.longest_gap_s = looked_at.gaps > 0 ? looked_at.longest_gap_s : 0.0;
+    report.fixes = looked_at.fixes;
     report.sensors = fused.sensors;
     report.notes = run.log.read_report.notes;
     for (const auto& notes : {fused.notes.limitations, fused.notes.details}) {
@@ -187,7 +236,8 @@ std::vector<std::string> sharedLimitations(const std::vector<FusedRun>& runs) {
             auto found =
                 std::find_if(notes.begin(), notes.end(), [&](const auto& n) { return n.first == note; });
             if (found == notes.end()) found = notes.insert(notes.end(), {note, {}});
-            found->second.push_back(run.trajectory.run_id);
+            const std::string& id = run.trajectory.run_id;
+            if (found->second.empty() || found->second.back() != id) found->second.push_back(id);
         }
     }
     std::vector<std::string> sentences;
@@ -200,21 +250,83 @@ std::vector<std::string> sharedLimitations(const std::vector<FusedRun>& runs) {
     return sentences;
 }
 
+/// What the logs and the project leave open, run by run: long silences, and a start that may not be used.
+std::vector<std::string> oddities(const Survey& survey, const std::vector<RunReport>& runs) {
+    constexpr double kNotableGap_s = 5.0;
+    std::vector<std::string> sentences;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        if (runs[i].longest_gap_s > kNotableGap_s) {
+            sentences.push_back(fmt::format("Run {} has no records for {:.1f} s: the track there is a guess.",
+                                            runs[i].id, runs[i].longest_gap_s));
+        }
+        const auto start = survey.runs[i].start ? survey.findMark(*survey.runs[i].start) : std::nullopt;
+        if (start && start->role == MarkRole::Check) {
+            sentences.push_back(
+                fmt::format("Run {} starts on check mark {}, which the estimator may not use: it begins as "
+                            "if nothing were known.",
+                            runs[i].id, start->name));
+        }
+    }
+    return sentences;
+}
+
+/// A zero point typed wrong, or a receiver that writes zeros, must not become a terrain model of half the
+/// Earth.
+Result<void> checkPlace(const Survey& survey) {
+    constexpr double kFarthest_m = 100e3;
+    constexpr std::size_t kSamples = 500;
+    const LocalFrame frame = survey.frame();
+    for (const Run& run : survey.runs) {
+        std::vector<double> distances_m;
+        const std::size_t step = std::max<std::size_t>(1, run.log.size() / kSamples);
+        for (std::size_t i = 0; i < run.log.size(); i += step) {
+            const GeodeticPosition position{run.log.value(Channel::Latitude, i),
+                                            run.log.value(Channel::Longitude, i), survey.zero_point.h_ell_m};
+            if (present(position.lat_deg)) distances_m.push_back(frame.toEnu(position).norm());
+        }
+        if (distances_m.empty()) continue;
+        const double distance_m = median(std::move(distances_m));
+        if (distance_m > kFarthest_m) {
+            return badData(fmt::format("the GNSS positions of run {} lie {:.0f} km from the zero point",
+                                       run.id, distance_m / 1000.0),
+                           run.log.file, 0, "check zero_point in the project file");
+        }
+    }
+    return {};
+}
+
 /// Why there is not a single ground point, in the words of the most frequent reason.
 Error noGroundPoints(const Survey& survey, const std::vector<GroundPoint>& points) {
     std::array<std::size_t, kGroundPointStateCount> counts{};
     for (const GroundPoint& point : points) ++counts[static_cast<std::size_t>(point.state)];
+    // Where points were thinned there were some; that is no reason to have none.
+    counts[static_cast<std::size_t>(GroundPointState::Thinned)] = 0;
     const auto most = std::max_element(counts.begin() + 1, counts.end()) - counts.begin();
-    return badData(fmt::format("the survey gives too few ground points for a surface (most frequent reason: "
-                               "{}, {} of {} epochs)",
-                               name(static_cast<GroundPointState>(most)),
-                               counts[static_cast<std::size_t>(most)], points.size()),
-                   survey.project_file, 0, "check the range finder with `terrawalk inspect`")
+    const bool left_out = static_cast<GroundPointState>(most) == GroundPointState::RunLeftOut;
+    if (counts[static_cast<std::size_t>(most)] == 0) {
+        return badData(
+                   fmt::format("{} epochs in all give too few ground points for a surface", points.size()),
+                   survey.project_file, 0, "walk farther")
+            .value();
+    }
+    return badData(
+               fmt::format("the survey gives too few ground points for a surface (most frequent reason: "
+                           "{}, {} of {} epochs)",
+                           name(static_cast<GroundPointState>(most)), counts[static_cast<std::size_t>(most)],
+                           points.size()),
+               survey.project_file, 0,
+               left_out ? "set surface.fixed_point_runs=true" : "look at the log with `terrawalk inspect`")
         .value();
 }
 
+/// Bad data without a file is the survey's own.
+Error blaming(const Survey& survey, Error error) {
+    if (error.kind == ErrorKind::BadData && error.file.empty()) error.file = survey.project_file;
+    return error;
+}
+
 struct Surface {
-    std::vector<GroundPoint> ground_points;  ///< all of them, thinned
+    std::vector<GroundPoint> ground_points;  ///< all of them
     std::size_t carrying_points = 0;
     DelaunayTin tin;
 };
@@ -222,17 +334,14 @@ struct Surface {
 Result<Surface> makeSurface(const Survey& survey, const std::vector<GroundPoint>& ground_points,
                             const SurfaceOptions& options, const MapProjection& projection,
                             Progress& progress, const std::stop_token& stop) {
-    std::vector<GroundPoint> thinned = thinGroundPoints(ground_points, options.thinning_cell_m);
-    const auto points = surfacePoints(survey, thinned, options.fixed_point_runs, projection);
-    if (!points) return tl::unexpected(points.error());
-    if (points->size() < 3) return tl::unexpected(noGroundPoints(survey, thinned));
+    std::vector<GroundPoint> chosen = surfacePoints(survey, ground_points, options);
+    if (stop.stop_requested()) return cancelled();
+    const auto points = usedInMap(chosen, projection);
+    if (!points) return tl::unexpected(blaming(survey, points.error()));
+    if (points->size() < 3) return tl::unexpected(noGroundPoints(survey, chosen));
     auto tin = DelaunayTin::build(*points, options.tin, progress, stop);
-    if (!tin) {
-        Error error = tin.error();
-        if (error.kind == ErrorKind::BadData) error.file = survey.project_file;
-        return tl::unexpected(error);
-    }
-    return Surface{std::move(thinned), points->size(), std::move(*tin)};
+    if (!tin) return tl::unexpected(blaming(survey, tin.error()));
+    return Surface{std::move(chosen), points->size(), std::move(*tin)};
 }
 
 /// Height of the surface at a mark, taken back from the map's height datum to the mark's.
@@ -257,16 +366,19 @@ Result<Comparison> compareBeforeFusion(const Survey& survey, const PipelineConfi
     if (!track) return tl::unexpected(track.error());
     Comparison comparison;
     compareTrack(survey, *track, config, Stage::BeforeFusion, false, comparison);
-    if (config.fusion.method == FusionMethod::Raw) return comparison;  // its surface is the product itself
+    // What the raw track misses says nothing of the product, so it is not told.
+    comparison.missing.clear();
     SilentProgress silent;
     const auto surface = makeSurface(survey, track->points, config.surface, projection, silent, stop);
     if (surface) {
-        // Where this surface ends says nothing of the product, so what it misses is not told.
         comparison.add(
             {surfaceResiduals(survey.marks, heightOf(surface->tin, projection), Stage::BeforeFusion, {})
                  .residuals,
              {}});
-    } else if (surface.error().kind != ErrorKind::BadData) {
+    } else if (surface.error().kind == ErrorKind::BadData) {
+        comparison.limitations.push_back(
+            "Before fusion there is no surface to compare with: " + surface.error().message + ".");
+    } else {
         return tl::unexpected(surface.error());
     }
     return comparison;
@@ -282,22 +394,22 @@ std::string methodName(const FusionOptions& options) {
 
 Result<Products> process(const Survey& survey, const PipelineConfig& config, Progress& progress,
                          std::stop_token stop) {
+    if (auto placed = checkPlace(survey); !placed) return tl::unexpected(placed.error());
     const auto projection = MapProjection::create(survey.frame(), survey.crs, survey.vertical_datum);
-    if (!projection) {
-        Error error = projection.error();
-        error.file = survey.project_file;
-        return tl::unexpected(error);
-    }
+    if (!projection) return tl::unexpected(blaming(survey, projection.error()));
 
     PartialProgress fusing(progress, 0.0, 0.5);
     auto fused = trackGround(survey, config.fusion, config.ground, fusing, stop);
     if (!fused) return tl::unexpected(fused.error());
 
-    PartialProgress following(progress, 0.5, 0.7);
-    auto comparison = compareBeforeFusion(survey, config, *projection, following, stop);
-    if (!comparison) return tl::unexpected(comparison.error());
     const bool tied = config.fusion.method != FusionMethod::Raw;
-    if (tied) compareTrack(survey, *fused, config, Stage::Fused, true, *comparison);
+    Result<Comparison> comparison;
+    if (tied) {
+        PartialProgress following(progress, 0.5, 0.7);
+        comparison = compareBeforeFusion(survey, config, *projection, following, stop);
+        if (!comparison) return tl::unexpected(comparison.error());
+    }
+    compareTrack(survey, *fused, config, tied ? Stage::Fused : Stage::BeforeFusion, tied, *comparison);
 
     PartialProgress triangulating(progress, 0.7, 0.85);
     progress.report(0.7, "triangulating");
@@ -312,10 +424,10 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     products.used = config;
     products.used.surface.tin.longest_edge_m = tin.longestEdge_m();
     if (config.surface.cell_m == 0.0) {
-        products.used.surface.cell_m = suggestCellSize(tin.area_m2(), tin.mesh().vertices_m.size());
+        products.used.surface.cell_m = suggestCellSize(tin.area_m2(), surface->carrying_points);
     }
     const auto geometry = gridCovering(tin.mesh(), products.used.surface.cell_m);
-    if (!geometry) return tl::unexpected(geometry.error());
+    if (!geometry) return tl::unexpected(blaming(survey, geometry.error()));
     PartialProgress gridding(progress, 0.85, 1.0);
     auto dem = rasterize(tin.mesh(), *geometry, gridding, stop);
     if (!dem) return tl::unexpected(dem.error());
@@ -348,6 +460,9 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     if (!relief) return tl::unexpected(relief.error());
     report.relief = std::move(*relief);
     report.limitations = sharedLimitations(fused->runs);
+    for (const auto& more : {comparison->limitations, oddities(survey, report.runs)}) {
+        report.limitations.insert(report.limitations.end(), more.begin(), more.end());
+    }
     report.warnings = survey.notes;
     report.warnings.insert(report.warnings.end(), projection->warnings().begin(),
                            projection->warnings().end());

@@ -43,7 +43,7 @@ Result<std::vector<InputFile>> describeInputs(const Survey& survey) {
 
 std::string manifestText(const Products& products, const SurveyReport& report, const Provenance& provenance,
                          const std::vector<std::string>& files) {
-    ordered_json manifest{{"format", "terrawalk-output 1"},
+    ordered_json manifest{{"format", kOutputFormat},
                           {"program", programVersion()},
                           {"libraries", ordered_json::object()},
                           {"command", provenance.command},
@@ -142,7 +142,7 @@ Result<void> writeProducts(const Survey& survey, const Products& products, const
 
 std::string summaryText(const Products& products) {
     const SurfaceReport& surface = products.report.surface;
-    std::string text = products.report.survey_name + "\n";
+    std::string text = printable(products.report.survey_name) + "\n";
     text += fmt::format("  DEM      dem.tif       {} x {} cells of {:g} m, {}\n", surface.columns,
                         surface.rows, surface.cell_m, surface.crs);
     text += fmt::format("  mesh     surface.ply   {} points, {} triangles\n",

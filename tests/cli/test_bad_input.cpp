@@ -125,6 +125,14 @@ std::vector<BadCase> badCases() {
         {"UnknownMark", "survey.json",
          put("survey.json",
              project(R"({"id": "S01", "kind": "area", "log": "logs/S01.csv", "start": "P77"})"))},
+        {"ZeroPointFarFromTheLogs", "S01.csv",
+         [](const fs::path& folder) {
+             std::string text = project(kAreaRun);
+             text.replace(text.find("23.182753"), 9, "40.000000");
+             writeBytes(folder / "survey.json", text);
+         }},
+        {"AbsurdPressure", "S01.csv:53",
+         put("logs/S01.csv", base + rows(50) + "10.0,23.18,113.4,4,1e308,0,0,0,1\n")},
         {"MissingControl", "control.csv", drop("control.csv")},
         {"EmptyControl", "control.csv", put("control.csv", "")},
         {"MarkNamedTwice", "control.csv:4", put("control.csv", kControl + "")},
@@ -169,6 +177,52 @@ std::vector<BadCase> completed(std::vector<BadCase> cases) {
 
 INSTANTIATE_TEST_SUITE_P(Each, BadInput, testing::ValuesIn(completed(badCases())),
                          [](const auto& tested) { return tested.param.name; });
+
+TEST(OddInput, AZeroPointOnTheDateLineIsRead) {
+    const TemporaryFolder scratch;
+    std::string text = project(kAreaRun, R"("crs": "EPSG:32660",)");
+    text.replace(text.find("113.399795"), 10, "180.0");
+    writeBytes(scratch / "s/survey.json", text);
+    std::string east = log();
+    for (std::size_t at = 0; (at = east.find("113.39", at)) != std::string::npos;)
+        east.replace(at, 10, "179.999995");
+    writeBytes(scratch / "s/logs/S01.csv", east);
+    const auto outcome = terrawalk({"process", (scratch / "s").string(), "-o", (scratch / "out").string()});
+    EXPECT_EQ(outcome.signal, 0);
+    EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 3) << outcome.err;
+}
+
+TEST(OddInput, ControlCodesOfAFileNeverReachTheTerminal) {
+    const TemporaryFolder scratch;
+    std::string text = project(kAreaRun);
+    text.replace(text.find("\"bad\""), 5, "\"bad\\u001b[31m\\u0007\"");
+    writeBytes(scratch / "s/survey.json", text);
+    writeBytes(scratch / "s/control.csv", kControl);
+    writeBytes(scratch / "s/logs/S01.csv", "# device: \x1b[31mred\n" + log());
+    const auto processed = terrawalk({"process", (scratch / "s").string(), "-o", (scratch / "out").string()});
+    const auto inspected = terrawalk({"inspect", (scratch / "s").string()});
+    ASSERT_EQ(processed.exit_code, 0) << processed.err;
+    for (const std::string& printed :
+         {processed.out, processed.err, inspected.out, inspected.err, bytesOf(scratch / "out/figures.txt")}) {
+        EXPECT_EQ(printed.find('\x1b'), std::string::npos);
+        EXPECT_EQ(printed.find('\x07'), std::string::npos);
+    }
+}
+
+TEST(OddInput, ASilenceInTheLogStandsInTheReport) {
+    const TemporaryFolder scratch;
+    writeBytes(scratch / "s/survey.json", project(kAreaRun));
+    writeBytes(scratch / "s/control.csv", kControl);
+    std::string text = "# format: array-log 1\n" + kHeader + rows(150);
+    for (int i = 600; i < 750; ++i) text += row(i);
+    writeBytes(scratch / "s/logs/S01.csv", text);
+    const auto outcome = terrawalk({"process", (scratch / "s").string(), "-o", (scratch / "out").string()});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto report = nlohmann::json::parse(bytesOf(scratch / "out/report.json"));
+    EXPECT_EQ(report.at("runs").at(0).at("gaps"), 1);
+    EXPECT_NEAR(report.at("runs").at(0).at("longest_gap_s").get<double>(), 90.2, 1e-6);
+    EXPECT_THAT(report.at("limitations").dump(), HasSubstr("no records for 90.2 s"));
+}
 
 TEST(OddInput, OddButHarmlessLogsAreReadAndCounted) {
     const TemporaryFolder scratch;

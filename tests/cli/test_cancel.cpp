@@ -51,6 +51,17 @@ TEST_F(LongSurvey, CtrlCStopsWithinASecondAndLeavesNothing) {
     }
 }
 
+TEST_F(LongSurvey, AClosedTerminalLeavesNothing) {
+    const TemporaryFolder here;
+    const auto outcome =
+        terrawalk({"process", survey().string(), "-o", (here / "out").string()}, [](pid_t program) {
+            std::this_thread::sleep_for(milliseconds(600));
+            kill(program, SIGHUP);
+        });
+    EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
+    EXPECT_TRUE(fs::is_empty(here.path()));
+}
+
 TEST_F(LongSurvey, AKilledRunLeavesThePreviousOutputWhole) {
     const TemporaryFolder here;
     const std::string out = (here / "out").string();

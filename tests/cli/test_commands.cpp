@@ -268,6 +268,38 @@ TEST(Usage, AFolderOfSomebodyElseIsLeftAlone) {
     EXPECT_EQ(bytesOf(scratch / "thesis/chapter1.txt"), "years of work");
 }
 
+TEST(Usage, ProductsNeverReplaceTheSurveyTheyComeFrom) {
+    const TemporaryFolder scratch;
+    fs::copy(quickPlot(), scratch / "survey", fs::copy_options::recursive);
+    const auto before = readTree(scratch.path());
+    for (const char* output : {"survey", "survey/", "survey/../survey"}) {
+        const auto outcome =
+            terrawalk({"process", (scratch / "survey").string(), "-o", (scratch / output).string()});
+        EXPECT_EQ(outcome.exit_code, 2) << output;
+        EXPECT_TRUE(readTree(scratch.path()) == before) << output;
+    }
+    // Another simulated survey is no earlier output either.
+    const auto outcome = terrawalk({"process", quickPlot().string(), "-o", (scratch / "survey").string()});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_TRUE(readTree(scratch.path()) == before);
+    // Within the survey's folder there is room for an output.
+    EXPECT_EQ(terrawalk({"process", (scratch / "survey").string(), "-o", (scratch / "survey/out").string()})
+                  .exit_code,
+              0);
+    EXPECT_EQ(readTree(scratch / "survey/logs"), readTree(quickPlot() / "logs"));
+}
+
+TEST(Process, RunsThatAreLeftOutStandForNoCell) {
+    const TemporaryFolder scratch;
+    const auto outcome = terrawalk({"process", quickPlot().string(), "-o", (scratch / "out").string(),
+                                    "--set", "surface.fixed_point_runs=false"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const json report = json::parse(bytesOf(scratch / "out/report.json"));
+    for (const json& run : report.at("runs")) {
+        EXPECT_EQ(run.at("ground_points_used").get<int>() > 0, run.at("kind") == "area") << run.at("id");
+    }
+}
+
 TEST(Usage, HelpAndVersionExitWithZero) {
     EXPECT_EQ(terrawalk({"--help"}).exit_code, 0);
     EXPECT_EQ(terrawalk({"process", "--help"}).exit_code, 0);

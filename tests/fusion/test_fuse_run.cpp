@@ -265,6 +265,197 @@ TEST(FuseRun, LetsGnssInAgainWhenTheFilterWasWrong) {
     expectSound(fused(made));
 }
 
+void silenceGnss(MadeRun& made, std::size_t from, std::size_t to) {
+    for (const Channel c : {Channel::Latitude, Channel::Longitude}) {
+        for (std::size_t i = from; i < to; ++i) made.log().column(c)[i] = kMissing;
+    }
+}
+
+// Two bad fixes with an outage between them are not a sensor that is right against the filter.
+TEST(FuseRun, SilenceDoesNotCountAsRejection) {
+    MadeRun made = makeRun({.epochs = 600});
+    silenceGnss(made, 201, 400);
+    made.log().column(Channel::Latitude)[200] += 200.0 / 111e3;
+    made.log().column(Channel::Latitude)[400] += 200.0 / 111e3;
+    const FusedRun run = fused(made, forwardOnly());
+    EXPECT_EQ(rejected(run, "GNSS position", "beyond gate"), 2U);
+    EXPECT_LT((run.trajectory.epochs[400].position_enu_m - made.position_enu_m[400]).norm(), 5.0);
+}
+
+TEST(FuseRun, SilenceDoesNotCountAsDivergence) {
+    MadeRun made = makeRun({.epochs = 4000, .speed_mps = 0.02});
+    silenceGnss(made, 501, 3500);
+    made.log().column(Channel::Latitude)[500] += 500.0 / 111e3;
+    made.log().column(Channel::Latitude)[3500] += 500.0 / 111e3;
+    const FusedRun run = fused(made);
+    EXPECT_EQ(rejected(run, "GNSS position", "beyond gate"), 2U);
+}
+
+TEST(FuseRun, OneRtkHeightDoesNotStandForTheWholeRun) {
+    MadeRun made = makeRun({.epochs = 3000, .speed_mps = 0.1});
+    made.erase(Channel::Pressure);
+    for (double& acceleration : made.log().column(Channel::AccelerationZ)) acceleration += 0.1;
+    for (std::size_t i = 0; i < 100; ++i) made.log().column(Channel::Fix)[i] = fix_code::kRtkFixed;
+    const FusedRun run = fused(made);
+    EXPECT_THAT(run, HasNote("GNSS height is used whatever the fix"));
+    EXPECT_LT(verticalRmse(made, run), 1.0);
+}
+
+TEST(FuseRun, GnssHeightStandsInForASilentBarometer) {
+    MadeRun made = makeRun({.epochs = 3000, .speed_mps = 0.1});
+    for (std::size_t i = 500; i < 2500; ++i) made.log().column(Channel::Pressure)[i] = kMissing;
+    for (double& acceleration : made.log().column(Channel::AccelerationZ)) acceleration += 0.1;
+    const FusedRun run = fused(made);
+    EXPECT_THAT(run, HasNote("barometer was silent for up to 400 s"));
+    EXPECT_LT(verticalRmse(made, run), 1.5);
+    // 400 s of silence less the first 30 s.
+    ASSERT_NE(use(run, "GNSS height"), nullptr);
+    EXPECT_NEAR(static_cast<double>(use(run, "GNSS height")->used), 1850.0, 3.0);
+}
+
+TEST(FuseRun, AHeightThatNothingMeasuresForLongIsHeldAndUnsure) {
+    MadeRun made = makeRun({.epochs = 3000, .speed_mps = 0.1, .ellipsoidal_height = false});
+    for (std::size_t i = 500; i < 2500; ++i) made.log().column(Channel::Pressure)[i] = kMissing;
+    const FusedRun run = fused(made, forwardOnly());
+    EXPECT_THAT(run, HasNote("the walk is taken to climb little"));
+    const double sigma_m = std::sqrt(run.trajectory.epochs[2499].covariance(2, 2));
+    EXPECT_GT(sigma_m, 5.0);
+    EXPECT_LT(sigma_m, 100.0);
+    expectSound(run);
+}
+
+double middleHeightSigma(const FusedRun& run) {
+    return std::sqrt(run.trajectory.epochs[run.trajectory.epochs.size() / 2].covariance(2, 2));
+}
+
+// 60 s of fixes of 1.95 m that keep their error for 30 s hold two errors, not 300.
+TEST(FuseRun, TheErrorOfTheBarometersZeroIsInItsHeights) {
+    MadeRun made = makeRun();
+    const FusedRun on_mark = fused(made);
+    // A mean over a stand within one gust.
+    EXPECT_GT(middleHeightSigma(on_mark), 0.12);
+    EXPECT_LT(middleHeightSigma(on_mark), 0.3);
+    made.run().start.reset();
+    const double expected = 1.95 / std::sqrt(2.0);
+    EXPECT_NEAR(middleHeightSigma(fused(made)), expected, 0.15 * expected);
+    EXPECT_GT(middleHeightSigma(fused(made, rawOptions())), 0.9 * expected);
+}
+
+TEST(FuseRun, TheBarometersZeroDoesNotBlurRtkHeights) {
+    MadeRun made = makeRun({.fix = fix_code::kRtkFixed, .errors = {.gnss_m = 0.01}});
+    // The height above the mark is assumed, and so is the zero: 0.3 m.
+    made.erase(Channel::Range);
+    EXPECT_LT(middleHeightSigma(fused(made)), 0.15);
+    made.erase(Channel::EllipsoidalHeight);
+    EXPECT_GT(middleHeightSigma(fused(made)), 0.3);
+}
+
+TEST(FuseRun, ZeroesTheBarometerByMostFixesNotByTheirMean) {
+    MadeRun made = makeRun({.errors = {.gnss_m = 0.2}});
+    made.run().start.reset();
+    for (std::size_t i = 0; i < 90; ++i) made.log().column(Channel::EllipsoidalHeight)[i] += 30.0;
+    EXPECT_LT(verticalRmse(made, fused(made)), 0.4);
+}
+
+TEST(FuseRun, ZeroesTheBarometerByGnssRatherThanFarFromAMark) {
+    MadeRun made = makeRun({.epochs = 600, .errors = {.gnss_m = 0.2}});
+    for (std::size_t i = 0; i < 100; ++i) made.log().column(Channel::Pressure)[i] = kMissing;
+    const FusedRun far = fused(made);
+    EXPECT_THAT(far, HasNote("tied to the median GNSS height"));
+    made.erase(Channel::EllipsoidalHeight);
+    const FusedRun only = fused(made);
+    EXPECT_THAT(only, HasNote("zeroed 17.6 s away from one"));
+    // 17.6 s at half of 1.5 m/s.
+    EXPECT_NEAR(middleHeightSigma(only), 0.75 * 17.6, 1.0);
+}
+
+TEST(FuseRun, AnUnknownHeadingLeavesTheLeverArmToItsVariance) {
+    MadeRun made = makeRun(
+        {.fix = fix_code::kRtkFixed, .gnss_lever_arm_m = {0.8, 0.6, 0.5}, .errors = {.gnss_m = 0.01}});
+    const auto sigma = [](const FusedRun& run) {
+        return std::sqrt(run.trajectory.epochs[150].covariance(0, 0));
+    };
+    const FusedRun raw_known = fused(made, rawOptions());
+    EXPECT_NEAR(sigma(raw_known), std::hypot(0.02, radians(3.0) * 1.0), 0.003);
+    made.erase(Channel::Heading);
+    const FusedRun raw = fused(made, rawOptions());
+    EXPECT_NEAR(sigma(raw), 1.0, 0.05);
+    EXPECT_THAT(raw, HasNote("lever arm of the antenna is not removed"));
+    // The antenna itself, 1 m away, and no further.
+    const Eigen::Vector3d error = raw.trajectory.epochs[150].position_enu_m - made.position_enu_m[150];
+    EXPECT_NEAR(error.head<2>().norm(), 1.0, 0.1);
+    EXPECT_GT(sigma(fused(made)), 0.3);
+}
+
+MadeRun flowOnlyRun(double interval_s, double silent_s) {
+    MadeRun made = makeRun({.epochs = static_cast<std::size_t>(std::lround(60.0 / interval_s)),
+                            .interval_s = interval_s,
+                            .doppler = true});
+    ArrayLog& log = made.log();
+    for (const Channel c : {Channel::Latitude, Channel::Longitude, Channel::EllipsoidalHeight, Channel::Fix,
+                            Channel::AccelerationX, Channel::AccelerationY, Channel::AccelerationZ}) {
+        made.erase(c);
+    }
+    // The column is there and empty.
+    for (const Channel c : {Channel::GnssVelocityEast, Channel::GnssVelocityNorth, Channel::GnssVelocityUp}) {
+        log.column(c).assign(log.size(), kMissing);
+    }
+    for (std::size_t i = 0; i < log.size(); ++i) {
+        if (log.time_s[i] > 20.0 && log.time_s[i] <= 20.0 + silent_s) {
+            log.column(Channel::FlowForward)[i] = log.column(Channel::FlowLeft)[i] = kMissing;
+        }
+    }
+    return made;
+}
+
+TEST(FuseRun, BridgesTheFlowForALimitedTime) {
+    const FusedRun run = fused(flowOnlyRun(0.2, 30.0));
+    // From 0.6 s to 10 s after the last reading at 20 s; rounding decides about the ends.
+    EXPECT_NEAR(static_cast<double>(use(run, "mean optical flow")->used), 47.5, 1.0);
+    EXPECT_THAT(run, HasNote("bridged by its recent mean for 10.0 s"));
+}
+
+TEST(FuseRun, BridgingTellsAsMuchPerSecondAtAnyRate) {
+    const auto sigmaAt = [](double interval_s) {
+        MadeRun made = flowOnlyRun(interval_s, 9.0);
+        made.erase(Channel::GnssVelocityEast);
+        const FusedRun run = fused(made, forwardOnly());
+        return std::sqrt(
+            run.trajectory.epochs[static_cast<std::size_t>(std::lround(28.0 / interval_s))].covariance(3, 3));
+    };
+    EXPECT_NEAR(sigmaAt(0.02), sigmaAt(0.2), 0.1 * sigmaAt(0.2));
+}
+
+TEST(FuseRun, TheFirstFixesCountOnce) {
+    MadeRun made = makeRun({.epochs = 5, .speed_mps = 0.0});
+    made.run().start.reset();
+    made.erase(Channel::FlowForward);
+    // Five fixes within a second share one error.
+    EXPECT_GT(std::sqrt(fused(made).trajectory.epochs[0].covariance(0, 0)), 1.2);
+}
+
+// 5 km from the zero point the level surface lies 1.96 m below the tangent plane.
+TEST(FuseRun, BarometricHeightsFollowTheLevelSurface) {
+    MadeRun made =
+        makeRun({.fix = fix_code::kRtkFixed, .errors = {.gnss_m = 0.0, .barometer_m = 0.0, .range_m = 0.0}});
+    const MadeRun near = made;
+    // The same walk from a zero point 5 km away: the same heights, and so the same pressures.
+    const GeodeticPosition start = made.survey.zero_point;
+    made.survey.zero_point = LocalFrame(start).toGeodetic({0.0, -5000.0, 0.0});
+    made.survey.zero_point.h_ell_m = start.h_ell_m;
+    made.run().start.reset();
+    FusionOptions options;
+    options.gnss.use_height = GnssHeightUse::Never;
+    made.survey.marks.push_back({"FAR", made.survey.frame().toEnu(start), 0.005, 0.005, MarkRole::Control});
+    made.run().start = "FAR";
+    const FusedRun run = fused(made, options);
+    const LocalFrame far_frame = made.survey.frame();
+    const LocalFrame near_frame = near.survey.frame();
+    const std::size_t last = run.trajectory.epochs.size() - 1;
+    const Eigen::Vector3d truth = far_frame.toEnu(near_frame.toGeodetic(near.position_enu_m[last]));
+    EXPECT_NEAR(run.trajectory.epochs[last].position_enu_m.z(), truth.z(), 0.02);
+}
+
 // Velocity sensors are never let in by force: the filter forgets its velocity within seconds.
 TEST(FuseRun, FindsBackToFlowAfterAJumpWithoutGnss) {
     MadeRun made = makeRun({.epochs = 600});
@@ -368,7 +559,8 @@ TEST(FuseRun, WithoutAnyHeightItSaysSoAndIsUnsure) {
     made.erase(Channel::Pressure);
     const FusedRun run = fused(made);
     EXPECT_THAT(run, HasNote("nothing in the log measures height"));
-    EXPECT_GT(std::sqrt(run.trajectory.epochs[150].covariance(2, 2)), 1.0);
+    EXPECT_GT(std::sqrt(run.trajectory.epochs[150].covariance(2, 2)), 9.0);
+    EXPECT_LT(std::sqrt(run.trajectory.epochs[150].covariance(2, 2)), 12.0);
     expectSound(run);
 }
 
@@ -426,7 +618,7 @@ TEST(FuseRun, WithoutMarkTheBarometerIsTiedToTheGnssHeight) {
     MadeRun made = makeRun();
     made.run().start.reset();
     const FusedRun run = fused(made);
-    EXPECT_THAT(run, HasNote("tied to the mean GNSS height"));
+    EXPECT_THAT(run, HasNote("tied to the median GNSS height"));
     // The mean of 300 heights of 1.5 m noise: 0.09 m.
     EXPECT_LT(verticalRmse(made, run), 0.4);
     EXPECT_LT(horizontalRmse(made, run), 1.0);
@@ -633,6 +825,36 @@ TEST(RawMode, HoldsTheLatestGnssPositionAndReadsTheBarometer) {
     EXPECT_NEAR(std::sqrt(epochs[10].covariance(0, 0)), FusionOptions{}.gnss.sigma_single_m, 1e-12);
     EXPECT_LT(verticalRmse(made, raw), 0.1);
     EXPECT_EQ(use(raw, "GNSS position")->used, 60U);
+}
+
+TEST(RawMode, AHeldPositionAgesAlikeAtAnyRate) {
+    const auto sigmaAfterTwoSeconds = [](double interval_s) {
+        MadeRun made =
+            makeRun({.epochs = static_cast<std::size_t>(20.0 / interval_s) + 1U, .interval_s = interval_s});
+        ArrayLog& log = made.log();
+        for (std::size_t i = 0; i < log.size(); ++i) {
+            if (log.time_s[i] > 10.0 + 1e-6) log.column(Channel::Latitude)[i] = kMissing;
+        }
+        const FusedRun raw = fused(made, rawOptions());
+        const auto at = static_cast<std::size_t>(std::lround(12.0 / interval_s));
+        return std::sqrt(raw.trajectory.epochs[at].covariance(0, 0));
+    };
+    const FusionOptions options;
+    const double expected = std::hypot(options.gnss.sigma_single_m, 2.0 * options.initial.walking_speed_mps);
+    EXPECT_NEAR(sigmaAfterTwoSeconds(0.2), expected, 1e-9);
+    EXPECT_NEAR(sigmaAfterTwoSeconds(0.02), expected, 1e-9);
+}
+
+TEST(RawMode, RefusesTheSameReadingsAsTheFilter) {
+    MadeRun made = makeRun({.doppler = true});
+    made.erase(Channel::FlowForward);
+    made.erase(Channel::FlowLeft);
+    for (std::size_t i = 100; i < 150; ++i) made.log().column(Channel::Fix)[i] = fix_code::kNone;
+    for (std::size_t i = 200; i < 210; ++i) made.log().column(Channel::Pressure)[i] = -5.0;
+    for (const FusedRun& run : {fused(made), fused(made, rawOptions())}) {
+        EXPECT_EQ(rejected(run, "GNSS velocity", "no fix"), 50U);
+        EXPECT_EQ(rejected(run, "barometer", "pressure not positive"), 10U);
+    }
 }
 
 }  // namespace

@@ -72,6 +72,45 @@ TEST(Packing, ComesBackTheSame) {
     EXPECT_EQ(back.covariance, run.filtered.back().covariance);
 }
 
+// What the response promises, against a filter and smoother whose height readings are all a metre higher.
+TEST(Smoother, CarriesTheResponseToTheHeightReference) {
+    constexpr std::size_t kEpochs = 60;
+    const ProcessOptions options;
+    std::vector<double> time_s;
+    std::vector<PackedEstimate> low;
+    std::vector<PackedEstimate> high;
+    StateEstimate at_low;
+    StateEstimate at_high;
+    Vector9d response = Vector9d::Zero();
+    for (std::size_t k = 0; k < kEpochs; ++k) {
+        time_s.push_back(0.3 * static_cast<double>(k));
+        if (k > 0) {
+            const Transition step = transition(options, 0.3);
+            at_low = predicted(at_low, step);
+            at_high = predicted(at_high, step);
+            response = (step.F * response).eval();
+        }
+        // Readings from the height reference, and now and then one that has a height of its own.
+        const bool moves = k % 10 != 7;
+        LinearRow row{StateBlock::Position, Eigen::Vector3d::UnitZ(), 0.1 * static_cast<double>(k), 0.2};
+        const double shift = moves ? 1.0 : 0.0;
+        response += gain(at_low, row) * (shift - response[offset(StateBlock::Position) + 2]);
+        at_low = updated(at_low, row);
+        row.value += shift;
+        at_high = updated(at_high, row);
+        low.push_back(packed(at_low));
+        low.back().height_response = response;
+        high.push_back(packed(at_high));
+    }
+    low = smoothed(std::move(low), time_s, options, {}, {});
+    high = smoothed(std::move(high), time_s, options, {}, {});
+    for (std::size_t k = 0; k < kEpochs; ++k) {
+        EXPECT_LT((high[k].mean - low[k].mean - low[k].height_response).norm(), 1e-9);
+    }
+    EXPECT_GT(low[30].height_response[offset(StateBlock::Position) + 2], 0.5);
+    EXPECT_LT(low[30].height_response[offset(StateBlock::Position) + 2], 1.0);
+}
+
 // Over N independent runs the sum of NEES is chi-square with 9 N degrees of freedom: mean 9 N, variance 18 N.
 TEST(FilterAndSmoother, AreAsSureAsTheyMayBeOnAMatchedModel) {
     constexpr int kRuns = 300;

@@ -308,8 +308,10 @@ TEST(ArrayLogReader, ValuesOutsideTheirRangeAreRefused) {
     EXPECT_THAT(with("fix", "1.5"), HasSubstr("F01.csv:4: column fix: 1.5: a fix is a whole number"));
     EXPECT_THAT(with("fix", "-1"), HasSubstr("a fix is"));
     EXPECT_THAT(with("fix", "10"), HasSubstr("a fix is"));
-    EXPECT_THAT(with("gnss_h_acc_m", "-0.1"), HasSubstr("an accuracy cannot be negative"));
-    EXPECT_THAT(with("gnss_v_acc_m", "-0.1"), HasSubstr("an accuracy cannot be negative"));
+    EXPECT_THAT(with("gnss_h_acc_m", "-0.1"), HasSubstr("an accuracy lies between 0 and 1000 km"));
+    EXPECT_THAT(with("pressure_pa", "1e308"), HasSubstr("no air has 10 bar"));
+    EXPECT_THAT(with("acc_x_mps2", "-1e200"), HasSubstr("no hand bears 1000 g"));
+    EXPECT_THAT(with("gnss_v_acc_m", "-0.1"), HasSubstr("an accuracy lies between 0 and 1000 km"));
     EXPECT_THAT(with("flow_quality", "256"), HasSubstr("a flow quality lies"));
     EXPECT_EQ(with("lat_deg", "90"), "");
     EXPECT_EQ(with("lon_deg", "-180"), "");

@@ -44,11 +44,31 @@ MarkStand stand(StandPlace place, ControlMark m, double from_s, double to_s, boo
 // ---------------------------------------------------------------------------------------------- position on
 // mark
 
+/// An array exactly above each of the points, with their sigmas.
+Trajectory trajectoryOver(const std::vector<GroundPoint>& points) {
+    Trajectory trajectory;
+    for (const GroundPoint& p : points) {
+        TrajectoryEpoch epoch;
+        epoch.time_s = p.time_s;
+        epoch.position_enu_m = p.enu_m + 1.2 * Eigen::Vector3d::UnitZ();
+        epoch.covariance(0, 0) = p.sigma_e_m * p.sigma_e_m;
+        epoch.covariance(1, 1) = p.sigma_n_m * p.sigma_n_m;
+        trajectory.epochs.push_back(epoch);
+    }
+    return trajectory;
+}
+
+MarkResiduals residualsBelow(const Run& of, const std::vector<MarkStand>& stands,
+                             std::vector<GroundPoint> points, Stage stage, bool tied) {
+    for (std::size_t i = 0; i < points.size(); ++i) points[i].epoch = static_cast<std::uint32_t>(i);
+    return positionResiduals(of, stands, trajectoryOver(points), points, stage, tied);
+}
+
 TEST(PositionResiduals, AreProductMinusMarkOnEachAxis) {
     const std::vector<GroundPoint> points{point(1.0, {10.5, 19.0, 3.25}), point(2.0, {10.5, 19.0, 3.25})};
     const auto out =
-        positionResiduals(run("F01"), {stand(StandPlace::Target, mark("P", {10, 20, 3}), 0, 5, false)},
-                          points, Stage::Fused, true);
+        residualsBelow(run("F01"), {stand(StandPlace::Target, mark("P", {10, 20, 3}), 0, 5, false)}, points,
+                       Stage::Fused, true);
     ASSERT_EQ(out.residuals.size(), 1U);
     const Residual& r = out.residuals[0];
     EXPECT_EQ(r.difference_enu_m, Eigen::Vector3d(0.5, -1.0, 0.25));
@@ -62,8 +82,8 @@ TEST(PositionResiduals, SigmaIsThatOfOnePointAndOfTheMark) {
     std::vector<GroundPoint> points;
     for (int i = 0; i < 100; ++i) points.push_back(point(0.01 * i, {0, 0, 0}));
     const auto out =
-        positionResiduals(run("F01"), {stand(StandPlace::Target, mark("P", {0, 0, 0}), 0, 5, false)}, points,
-                          Stage::Fused, true);
+        residualsBelow(run("F01"), {stand(StandPlace::Target, mark("P", {0, 0, 0}), 0, 5, false)}, points,
+                       Stage::Fused, true);
     EXPECT_NEAR(out.residuals[0].sigma_enu_m.x(), std::hypot(0.4, 0.03), 1e-15);
     EXPECT_NEAR(out.residuals[0].sigma_enu_m.y(), std::hypot(0.5, 0.03), 1e-15);
     EXPECT_NEAR(out.residuals[0].sigma_enu_m.z(), std::hypot(0.3, 0.04), 1e-15);
@@ -72,8 +92,8 @@ TEST(PositionResiduals, SigmaIsThatOfOnePointAndOfTheMark) {
 TEST(PositionResiduals, SingleBadRangesDoNoHarm) {
     std::vector<GroundPoint> points;
     for (int i = 0; i < 8; ++i) points.push_back(point(i, {0, 0, i == 3 ? -900.0 : 0.125}));
-    const auto out = positionResiduals(
-        run("F01"), {stand(StandPlace::Stop, mark("P", {0, 0, 0}), 0, 7, false)}, points, Stage::Fused, true);
+    const auto out = residualsBelow(run("F01"), {stand(StandPlace::Stop, mark("P", {0, 0, 0}), 0, 7, false)},
+                                    points, Stage::Fused, true);
     EXPECT_EQ(out.residuals[0].difference_enu_m.z(), 0.125);
 }
 
@@ -86,8 +106,8 @@ TEST(PositionResiduals, TakeEpochsOfTheStandWithASoundRangeOnly) {
                                           point(1.7, {0, 0, 50}, GroundPointState::WeakReturn),
                                           point(2.0, {0, 0, 3}, GroundPointState::PositionUnsure),
                                           point(2.1, {0, 0, 50})};
-    const auto out = positionResiduals(
-        run("F01"), {stand(StandPlace::Stop, mark("P", {0, 0, 0}), 1, 2, false)}, points, Stage::Fused, true);
+    const auto out = residualsBelow(run("F01"), {stand(StandPlace::Stop, mark("P", {0, 0, 0}), 1, 2, false)},
+                                    points, Stage::Fused, true);
     EXPECT_EQ(out.residuals[0].difference_enu_m.z(), 2.0);
 }
 
@@ -96,34 +116,45 @@ TEST(PositionResiduals, AreFlaggedWhereTheEstimatorWasTied) {
         stand(StandPlace::Stop, mark("C", {0, 0, 0}, MarkRole::Control), 0, 5, true),
         stand(StandPlace::Target, mark("T", {0, 0, 0}, MarkRole::Control), 0, 5, false)};
     const std::vector<GroundPoint> points{point(1.0, {0, 0, 0})};
-    const auto tied = positionResiduals(run("F01"), stands, points, Stage::Fused, true);
+    const auto tied = residualsBelow(run("F01"), stands, points, Stage::Fused, true);
     EXPECT_TRUE(tied.residuals[0].used_by_estimator);
     EXPECT_FALSE(tied.residuals[1].used_by_estimator);
-    const auto raw = positionResiduals(run("F01"), stands, points, Stage::BeforeFusion, false);
+    const auto raw = residualsBelow(run("F01"), stands, points, Stage::BeforeFusion, false);
     EXPECT_FALSE(raw.residuals[0].used_by_estimator);
 }
 
 TEST(PositionResiduals, LeaveOutTheStartFromWhichHeightsAreCounted) {
     const std::vector<GroundPoint> points{point(1.0, {0, 0, 0})};
-    const auto zeroed = positionResiduals(
+    const auto zeroed = residualsBelow(
         run("F01"), {stand(StandPlace::Start, mark("ZERO", {0, 0, 0}, MarkRole::Control), 0, 5, true)},
         points, Stage::BeforeFusion, false);
     EXPECT_THAT(zeroed.residuals, IsEmpty());
     EXPECT_THAT(zeroed.missing, IsEmpty());
     const auto check =
-        positionResiduals(run("F01"), {stand(StandPlace::Start, mark("K", {0, 0, 0}), 0, 5, false)}, points,
-                          Stage::BeforeFusion, false);
+        residualsBelow(run("F01"), {stand(StandPlace::Start, mark("K", {0, 0, 0}), 0, 5, false)}, points,
+                       Stage::BeforeFusion, false);
     EXPECT_EQ(check.residuals.size(), 1U);
 }
 
 TEST(PositionResiduals, NameStandsWithoutASoundRange) {
     const auto out =
-        positionResiduals(run("F07"), {stand(StandPlace::Target, mark("P", {0, 0, 0}), 1, 2, false)},
-                          {point(1.5, {0, 0, 0}, GroundPointState::Tilted)}, Stage::Fused, true);
+        residualsBelow(run("F07"), {stand(StandPlace::Target, mark("P", {0, 0, 0}), 1, 2, false)},
+                       {point(1.5, {0, 0, 0}, GroundPointState::Tilted)}, Stage::Fused, true);
     EXPECT_THAT(out.residuals, IsEmpty());
     ASSERT_EQ(out.missing.size(), 1U);
     EXPECT_EQ(out.missing[0].mark, "P");
     EXPECT_EQ(out.missing[0].run, "F07");
+}
+
+TEST(PositionResiduals, ATiltedLaserDoesNotShiftThePlanPosition) {
+    std::vector<GroundPoint> points{point(1.0, {10.2, 19.9, 3.0})};
+    points[0].epoch = 0;
+    Trajectory trajectory = trajectoryOver(points);
+    trajectory.epochs[0].position_enu_m = {10, 20, 4.2};
+    const auto out =
+        positionResiduals(run("F01"), {stand(StandPlace::Target, mark("P", {10, 20, 3}), 0, 5, false)},
+                          trajectory, points, Stage::Fused, true);
+    EXPECT_EQ(out.residuals[0].difference_enu_m, Eigen::Vector3d::Zero());
 }
 
 // ---------------------------------------------------------------------------------------------- nearest

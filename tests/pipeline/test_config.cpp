@@ -68,6 +68,7 @@ TEST(Config, BrokenFilesNameFileAndLine) {
     };
     EXPECT_THAT(error("{\n\"seed\": 1,\n}"), HasSubstr("c.json:3: "));
     EXPECT_THAT(error(""), HasSubstr("not valid JSON"));
+    EXPECT_THAT(error(R"({"surface": {"cell_m": 1e999}})"), HasSubstr("too large"));
     EXPECT_THAT(error("[]"), HasSubstr("one JSON object"));
     EXPECT_THAT(error(R"({"surface": {"cell_m": "wide"}})"), HasSubstr("surface.cell_m"));
     EXPECT_THAT(error(R"({"surface": {"cell_m": [1]}})"), HasSubstr("surface.cell_m"));
