@@ -417,15 +417,22 @@ std::size_t countOf(const std::vector<CountedReason>& reasons, std::string_view 
 
 std::string logTable(const SurveyReport& report) {
     const auto fixes = reasonsOf(report, [](const RunReport& r) { return r.fixes; });
-    std::vector<Heading> headings{
-        {"Run"},        {"Kind"},         {"Rows read", true},    {"Repeated", true},
-        {"Late", true}, {"Epochs", true}, {"Duration [s]", true}, {"Distance [m]", true}};
+    std::vector<Heading> headings{{"Run"},
+                                  {"Kind"},
+                                  {"Rows read", true},
+                                  {"Repeated", true},
+                                  {"Late", true},
+                                  {"Epochs", true},
+                                  {"Duration [s]", true},
+                                  {"Longest gap [s]", true},
+                                  {"Distance [m]", true}};
     for (const std::string& fix : fixes) headings.push_back({"Fix: " + fix, true});
     std::string rows;
     for (const RunReport& run : report.runs) {
         std::string cells = rowHead(run.id) + cell(Cell::Short, name(run.kind)) + number(run.rows_read) +
                             number(run.repeated_lines.size()) + number(run.late_lines.size()) +
                             number(run.epochs) + cell(Cell::Number, fixedDecimals(run.duration_s, 1)) +
+                            cell(Cell::Number, fixedDecimals(run.longest_gap_s, 1)) +
                             cell(Cell::Number, fixedDecimals(run.distance_m, 1));
         for (const std::string& fix : fixes) {
             cells += cell(Cell::Number, share(countOf(run.fixes, fix), total(run.fixes)));
