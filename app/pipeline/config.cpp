@@ -10,7 +10,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <type_traits>
 
 #include "survey/frames.hpp"
 
@@ -39,15 +38,22 @@ std::string wrongValue(const Parameter& parameter, const json& value) {
     return fmt::format("{} = {} is not permitted", parameter.key, shown.substr(0, 80));
 }
 
-// `field` takes a configuration to a reference into it, const or not.
-template <class Field>
-Parameter number(std::string key, double least, double greatest, std::string meaning, Field field,
+/// Takes a configuration to one of its members.
+template <class Member>
+using Field = Member& (*)(PipelineConfig&);
+
+template <class Member>
+const Member& read(Field<Member> field, const PipelineConfig& config) {
+    return field(const_cast<PipelineConfig&>(config));  // a field only finds the member
+}
+
+Parameter number(std::string key, double least, double greatest, std::string meaning, Field<double> field,
                  double unit_factor = 1.0) {
     Parameter p{std::move(key), {}, std::move(meaning), {}, {}};
     p.range = greatest == kUnlimited ? fmt::format(">= {}", least) : fmt::format("{} to {}", least, greatest);
     p.get = [field, unit_factor](const PipelineConfig& config) {
-        return ordered_json(unit_factor == 1.0 ? field(config)
-                                               : std::round(field(config) / unit_factor * 1e9) / 1e9);
+        const double value = read(field, config);
+        return ordered_json(unit_factor == 1.0 ? value : std::round(value / unit_factor * 1e9) / 1e9);
     };
     p.set = [field, unit_factor, least, greatest, p](PipelineConfig& config,
                                                      const json& value) -> Result<void> {
@@ -62,17 +68,17 @@ Parameter number(std::string key, double least, double greatest, std::string mea
     return p;
 }
 
-template <class Field>
-Parameter angle(std::string key, double least_deg, double greatest_deg, std::string meaning, Field field) {
+Parameter angle(std::string key, double least_deg, double greatest_deg, std::string meaning,
+                Field<double> field) {
     return number(std::move(key), least_deg, greatest_deg, std::move(meaning), field, kPi / 180.0);
 }
 
-template <class Field>
+template <class Member>
 Parameter integer(std::string key, std::int64_t least, std::int64_t greatest, std::string meaning,
-                  Field field) {
+                  Field<Member> field) {
     Parameter p{std::move(key), fmt::format("{} to {}", least, greatest), std::move(meaning), {}, {}};
     p.get = [field](const PipelineConfig& config) {
-        return ordered_json(field(config));
+        return ordered_json(read(field, config));
     };
     p.set = [field, least, greatest, p](PipelineConfig& config, const json& value) -> Result<void> {
         if (!value.is_number_integer()) return usageError(wrongValue(p, value), "give a whole number");
@@ -81,18 +87,16 @@ Parameter integer(std::string key, std::int64_t least, std::int64_t greatest, st
         if (too_big || value.get<std::int64_t>() < least || value.get<std::int64_t>() > greatest) {
             return usageError(wrongValue(p, value), "permitted: " + p.range);
         }
-        field(config) =
-            static_cast<std::remove_reference_t<decltype(field(config))>>(value.get<std::int64_t>());
+        field(config) = static_cast<Member>(value.get<std::int64_t>());
         return {};
     };
     return p;
 }
 
-template <class Field>
-Parameter flag(std::string key, std::string meaning, Field field) {
+Parameter flag(std::string key, std::string meaning, Field<bool> field) {
     Parameter p{std::move(key), "true, false", std::move(meaning), {}, {}};
     p.get = [field](const PipelineConfig& config) {
-        return ordered_json(field(config));
+        return ordered_json(read(field, config));
     };
     p.set = [field, p](PipelineConfig& config, const json& value) -> Result<void> {
         if (!value.is_boolean()) return usageError(wrongValue(p, value), "permitted: true, false");
@@ -102,14 +106,14 @@ Parameter flag(std::string key, std::string meaning, Field field) {
     return p;
 }
 
-template <class Enum, class Field>
+template <class Enum>
 Parameter choice(std::string key, std::vector<std::pair<std::string, Enum>> names, std::string meaning,
-                 Field field) {
+                 Field<Enum> field) {
     Parameter p{std::move(key), {}, std::move(meaning), {}, {}};
     for (const auto& [text, value] : names) p.range += (p.range.empty() ? "" : ", ") + text;
     p.get = [field, names](const PipelineConfig& config) {
         const auto found = std::find_if(names.begin(), names.end(),
-                                        [&](const auto& n) { return n.second == field(config); });
+                                        [&](const auto& n) { return n.second == read(field, config); });
         return ordered_json(found->first);
     };
     p.set = [field, names, p](PipelineConfig& config, const json& value) -> Result<void> {
@@ -122,9 +126,9 @@ Parameter choice(std::string key, std::vector<std::pair<std::string, Enum>> name
     return p;
 }
 
-#define TERRAWALK_FIELD(path)   \
-    [](auto& config) -> auto& { \
-        return config.path;     \
+#define TERRAWALK_FIELD(path)              \
+    [](PipelineConfig & config) -> auto& { \
+        return config.path;                \
     }
 
 std::vector<Parameter> fusionParameters() {
@@ -327,9 +331,9 @@ std::vector<Parameter> fusionParameters() {
         number("fusion.divergence.rejected_share", 0, 1,
                "a larger share of rejected GNSS positions ends the run with an error",
                TERRAWALK_FIELD(fusion.divergence.rejected_share)),
-        integer("fusion.divergence.fewest_rejected", 1, 1000000,
-                "rejected GNSS positions before their share counts",
-                TERRAWALK_FIELD(fusion.divergence.fewest_rejected)),
+        integer<int>("fusion.divergence.fewest_rejected", 1, 1000000,
+                     "rejected GNSS positions before their share counts",
+                     TERRAWALK_FIELD(fusion.divergence.fewest_rejected)),
         number("fusion.divergence.rejected_window_s", 1, 1000000.0, "over which the share is taken",
                TERRAWALK_FIELD(fusion.divergence.rejected_window_s)),
     };
@@ -384,8 +388,8 @@ std::vector<Parameter> surfaceParameters() {
         number("report.nearest_sample_limit_m", 0.01, 1e4,
                "marks farther from any ground point are not compared with one",
                TERRAWALK_FIELD(report.nearest_sample_limit_m)),
-        integer("seed", 0, std::numeric_limits<std::int64_t>::max(),
-                "of the confidence intervals in the report", TERRAWALK_FIELD(seed)),
+        integer<std::uint64_t>("seed", 0, std::numeric_limits<std::int64_t>::max(),
+                               "of the confidence intervals in the report", TERRAWALK_FIELD(seed)),
     };
 }
 
