@@ -22,6 +22,9 @@ namespace terrawalk {
 /// Whole numbers in groups of three, parted by narrow no-break spaces.
 [[nodiscard]] std::string groupedDigits(std::size_t value);
 
+/// A field of a CSV file, quoted where RFC 4180 asks for it.
+[[nodiscard]] std::string csvField(std::string_view text);
+
 /// Bytes as base64 text, RFC 4648, with padding.
 [[nodiscard]] std::string base64(std::string_view bytes);
 

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "io/markup_text.hpp"
 #include "io/output_folder.hpp"
 #include "io/report_text.hpp"
 #include "io/write_products.hpp"
@@ -11,16 +12,6 @@
 namespace terrawalk {
 
 namespace {
-
-std::string csvField(std::string_view text) {
-    if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"') quoted += '"';
-        quoted += c;
-    }
-    return quoted + '"';
-}
 
 std::string csvNumber(double value) {
     if (!std::isfinite(value)) return {};

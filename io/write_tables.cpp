@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "io/markup_text.hpp"
 #include "io/replacing_file.hpp"
 #include "io/write_products.hpp"
 
@@ -24,19 +25,9 @@ class CsvLine {
         return *this;
     }
     CsvLine& vector(const Eigen::Vector3d& v) { return number(v.x()).number(v.y()).number(v.z()); }
-    /// Quoted where RFC 4180 asks for it.
     CsvLine& text(std::string_view text) {
         separate();
-        if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
-            line_.append(text);
-            return *this;
-        }
-        line_.push_back('"');
-        for (const char c : text) {
-            if (c == '"') line_.push_back('"');
-            line_.push_back(c);
-        }
-        line_.push_back('"');
+        line_.append(csvField(text));
         return *this;
     }
     /// The finished line; the next one begins empty.

@@ -71,12 +71,20 @@ int fail(const Error& error, const Common& common, TerminalProgress& progress) {
     return exitCode(error.kind);
 }
 
+void addJson(CLI::App& command, Common& common) {
+    command.add_flag("--json", common.json, "Print the outcome as JSON");
+}
+
+void addQuiet(CLI::App& command, Common& common) {
+    command.add_flag("--quiet,-q", common.quiet, "Print errors only");
+}
+
 void addCommon(CLI::App& command, Common& common) {
     command.add_option("--threads", common.threads, "Threads to work on; 0: one for each core")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
-    command.add_flag("--json", common.json, "Print the outcome as JSON");
-    command.add_flag("--quiet,-q", common.quiet, "Print errors only");
+    addJson(command, common);
+    addQuiet(command, common);
 }
 
 void addConfiguration(CLI::App& command, ProcessArguments& arguments) {
@@ -158,7 +166,7 @@ int runSimulate(const SimulateArguments& arguments, const Common& common, Termin
         fmt::print("{}", simulationJson(arguments.options, arguments.output));
     } else if (!common.quiet) {
         fmt::print("Simulated survey written to {}\nProcess it with: terrawalk process {} -o out\n",
-                   arguments.output.string(), project);
+                   printable(arguments.output.string()), printable(project));
     }
     return 0;
 }
@@ -184,7 +192,11 @@ int runConfigDescribe(const Common& common) {
 int runConfigValidate(const fs::path& file, const Common& common, TerminalProgress& progress) {
     PipelineConfig config;
     if (auto done = applyConfigFile(config, file); !done) return fail(done.error(), common, progress);
-    if (!common.quiet) fmt::print("{}: good\n", file.string());
+    if (common.json) {
+        fmt::print("{}", validationJson(file));
+    } else if (!common.quiet) {
+        fmt::print("{}: good\n", printable(file.string()));
+    }
     return 0;
 }
 
@@ -221,13 +233,13 @@ int run(int argc, char** argv) {
     config_command->require_subcommand(1);
     CLI::App* print_command = config_command->add_subcommand("print", "Print all parameters as JSON");
     addConfiguration(*print_command, process);
-    addCommon(*print_command, common);
     CLI::App* describe_command = config_command->add_subcommand("describe", "Explain every parameter");
-    addCommon(*describe_command, common);
+    addJson(*describe_command, common);
     fs::path validated;
     CLI::App* validate_command = config_command->add_subcommand("validate", "Check a parameter file");
     validate_command->add_option("file", validated, "JSON file with parameters")->required();
-    addCommon(*validate_command, common);
+    addJson(*validate_command, common);
+    addQuiet(*validate_command, common);
 
     try {
         app.parse(argc, argv);

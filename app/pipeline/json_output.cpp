@@ -68,4 +68,8 @@ std::string parametersJson() {
     return text({{"parameters", std::move(parameters)}});
 }
 
+std::string validationJson(const std::filesystem::path& file) {
+    return text({{"file", file.string()}, {"valid", true}});
+}
+
 }  // namespace terrawalk

@@ -16,5 +16,6 @@ namespace terrawalk {
 [[nodiscard]] std::string simulationJson(const SimulationOptions& options,
                                          const std::filesystem::path& output);
 [[nodiscard]] std::string parametersJson();
+[[nodiscard]] std::string validationJson(const std::filesystem::path& file);
 
 }  // namespace terrawalk

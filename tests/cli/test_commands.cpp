@@ -159,6 +159,8 @@ TEST(Process, AConfigurationPrintedByTheProgramGivesTheSameProducts) {
     ASSERT_EQ(printed.exit_code, 0) << printed.err;
     writeBytes(scratch / "config.json", printed.out);
     EXPECT_EQ(terrawalk({"config", "validate", (scratch / "config.json").string()}).exit_code, 0);
+    const auto validated = terrawalk({"config", "validate", (scratch / "config.json").string(), "--json"});
+    EXPECT_EQ(json::parse(validated.out).at("valid"), true);
     ASSERT_EQ(terrawalk({"process", quickPlot().string(), "-o", (scratch / "a").string(), "--config",
                          (scratch / "config.json").string()})
                   .exit_code,

@@ -2,6 +2,7 @@
 #include <tbb/global_control.h>
 
 #include <GeographicLib/UTMUPS.hpp>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <mutex>
@@ -105,7 +106,9 @@ TEST(Process, ARampInUtmLiesWhereAnIndependentProjectionPutsIt) {
 }
 
 TEST(Process, CheckMarksNeverTouchTheProducts) {
-    SimulatedSurvey s = simulated(smallSurvey());
+    SimulationOptions options = smallSurvey();
+    options.check_stops = 2;
+    SimulatedSurvey s = simulated(options);
     const Products before = processed(s.survey, {});
     for (ControlMark& mark : s.survey.marks) {
         if (mark.role == MarkRole::Check) mark.enu_m += Eigen::Vector3d(0.7, -0.4, 5.0);
@@ -115,6 +118,20 @@ TEST(Process, CheckMarksNeverTouchTheProducts) {
     EXPECT_EQ(std::memcmp(before.dem.heights_m.data(), after.dem.heights_m.data(),
                           before.dem.heights_m.size() * sizeof(float)),
               0);
+    ASSERT_EQ(before.ground_points.size(), after.ground_points.size());
+    for (std::size_t i = 0; i < before.ground_points.size(); ++i) {
+        ASSERT_EQ(before.ground_points[i].state, after.ground_points[i].state) << i;
+        // Bit by bit: points without a range have no sigma, and NaN equals nothing.
+        ASSERT_EQ(std::bit_cast<std::uint64_t>(before.ground_points[i].sigma_u_m),
+                  std::bit_cast<std::uint64_t>(after.ground_points[i].sigma_u_m))
+            << i;
+    }
+    for (std::size_t run = 0; run < before.trajectories.size(); ++run) {
+        for (std::size_t i = 0; i < before.trajectories[run].epochs.size(); ++i) {
+            ASSERT_EQ(before.trajectories[run].epochs[i].position_enu_m,
+                      after.trajectories[run].epochs[i].position_enu_m);
+        }
+    }
     EXPECT_NE(before.report.figures.at(0).value, after.report.figures.at(0).value);
 }
 
