@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cctype>
 #include <cmath>
 #include <set>
@@ -12,7 +11,7 @@
 #include "app/pipeline/inspect.hpp"
 #include "app/pipeline/relief.hpp"
 #include "app/pipeline/version.hpp"
-#include "fusion/fuse_run.hpp"
+#include "fusion/fuse_survey.hpp"
 #include "io/map_projection.hpp"
 #include "mapping/accuracy_statements.hpp"
 #include "mapping/gridding.hpp"
@@ -31,62 +30,20 @@ struct GroundTrack {
     std::vector<std::size_t> first_point;  ///< of each run, and the end
 };
 
-/// Progress of runs that are worked on side by side, each weighing as much as its log is long.
-class SideBySide {
-  public:
-    SideBySide(const Survey& survey, Progress& progress) : progress_(progress), parts_(survey.runs.size()) {
-        for (std::size_t i = 0; i < parts_.size(); ++i) {
-            parts_[i].whole = this;
-            parts_[i].weight = static_cast<double>(survey.runs[i].log.size());
-            weight_ += parts_[i].weight;
-        }
-    }
-    Progress& of(std::size_t run) { return parts_[run]; }
-
-  private:
-    struct Part final : Progress {
-        void report(double fraction, std::string_view step) override {
-            done = fraction * weight;
-            whole->report(step);
-        }
-        void message(Severity severity, std::string_view text) override {
-            whole->progress_.message(severity, text);
-        }
-        SideBySide* whole = nullptr;
-        double weight = 0.0;
-        std::atomic<double> done{0.0};
-    };
-    void report(std::string_view step) {
-        double done = 0.0;
-        for (const Part& part : parts_) done += part.done;
-        progress_.report(weight_ > 0.0 ? done / weight_ : 1.0, step);
-    }
-    Progress& progress_;
-    std::vector<Part> parts_;
-    double weight_ = 0.0;
-};
-
 Result<GroundTrack> trackGround(const Survey& survey, const FusionOptions& fusion,
                                 const GroundPointOptions& ground, Progress& progress,
                                 const std::stop_token& stop) {
+    auto fused = fuseSurvey(survey, fusion, progress, stop);
+    if (!fused) return tl::unexpected(fused.error());
+    GroundTrack track{std::move(fused->runs), {}, {}};
     const std::size_t n = survey.runs.size();
-    std::vector<Result<FusedRun>> fused(n, cancelled());
     std::vector<std::vector<GroundPoint>> points(n);
-    SideBySide parts(survey, progress);
     tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
-        if (stop.stop_requested()) return;
-        const Run& run = survey.runs[i];
-        PartialProgress fusing(parts.of(i), 0.0, 0.8);
-        fused[i] = fuseRun(survey, run, fusion, fusing, stop);
-        if (!fused[i]) return;
-        points[i] = groundPoints(run, static_cast<std::uint32_t>(i), fused[i]->trajectory, ground, stop);
-        parts.of(i).report(1.0, "ground points of " + run.id);
+        points[i] = groundPoints(survey.runs[i], static_cast<std::uint32_t>(i), track.runs[i].trajectory,
+                                 ground, stop);
     });
     if (stop.stop_requested()) return cancelled();
-    GroundTrack track;
     for (std::size_t i = 0; i < n; ++i) {
-        if (!fused[i]) return tl::unexpected(fused[i].error());
-        track.runs.push_back(std::move(*fused[i]));
         track.first_point.push_back(track.points.size());
         track.points.insert(track.points.end(), points[i].begin(), points[i].end());
     }

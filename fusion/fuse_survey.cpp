@@ -1,0 +1,70 @@
+#include "fusion/fuse_survey.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <cstddef>
+
+#include "fusion/fuse_run.hpp"
+
+namespace terrawalk {
+
+namespace {
+
+/// Progress of runs that are worked on side by side, each weighing as much as its log is long.
+class SideBySide {
+  public:
+    SideBySide(const Survey& survey, Progress& progress) : progress_(progress), parts_(survey.runs.size()) {
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            parts_[i].whole = this;
+            parts_[i].weight = static_cast<double>(survey.runs[i].log.size());
+            weight_ += parts_[i].weight;
+        }
+    }
+    Progress& of(std::size_t run) { return parts_[run]; }
+
+  private:
+    struct Part final : Progress {
+        void report(double fraction, std::string_view step) override {
+            done = fraction * weight;
+            whole->report(step);
+        }
+        void message(Severity severity, std::string_view text) override {
+            whole->progress_.message(severity, text);
+        }
+        SideBySide* whole = nullptr;
+        double weight = 0.0;
+        std::atomic<double> done{0.0};
+    };
+    void report(std::string_view step) {
+        double done = 0.0;
+        for (const Part& part : parts_) done += part.done;
+        progress_.report(weight_ > 0.0 ? done / weight_ : 1.0, step);
+    }
+    Progress& progress_;
+    std::vector<Part> parts_;
+    double weight_ = 0.0;
+};
+
+}  // namespace
+
+Result<FusedSurvey> fuseSurvey(const Survey& survey, const FusionOptions& options, Progress& progress,
+                               std::stop_token stop) {
+    const std::size_t n = survey.runs.size();
+    std::vector<Result<FusedRun>> fused(n, cancelled());
+    SideBySide parts(survey, progress);
+    tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+        if (stop.stop_requested()) return;
+        fused[i] = fuseRun(survey, survey.runs[i], options, parts.of(i), stop);
+    });
+    if (stop.stop_requested()) return cancelled();
+    FusedSurvey result;
+    result.runs.reserve(n);
+    for (Result<FusedRun>& run : fused) {
+        if (!run) return tl::unexpected(run.error());
+        result.runs.push_back(std::move(*run));
+    }
+    return result;
+}
+
+}  // namespace terrawalk
