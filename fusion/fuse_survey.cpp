@@ -4,8 +4,12 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdio>
+#include <cstdlib>
 
 #include "fusion/fuse_run.hpp"
+#include "fusion/joint_adjustment.hpp"
+#include "fusion/run_reference.hpp"
 
 namespace terrawalk {
 
@@ -46,6 +50,35 @@ class SideBySide {
     double weight_ = 0.0;
 };
 
+Result<FusedSurvey> adjusted(const Survey& survey, FusedSurvey fused, const FusionOptions& options,
+                             Progress& progress, std::stop_token stop) {
+    std::vector<RunStart> starts;
+    for (std::size_t i = 0; i < survey.runs.size(); ++i) {
+        RunStart start;
+        start.run = &survey.runs[i];
+        RunNotes again;
+        start.attitudes = epochAttitudes(start.run->log, options.attitude, again);
+        const auto reference = runReference(survey, *start.run, options, start.attitudes, again);
+        if (!reference) return tl::unexpected(reference.error());
+        start.reference = *reference;
+        start.trajectory = std::move(fused.runs[i].trajectory);
+        starts.push_back(std::move(start));
+    }
+    auto solution = adjustJointly(survey, starts, options, progress, stop);
+    if (!solution) return tl::unexpected(solution.error());
+    for (std::size_t i = 0; i < survey.runs.size(); ++i) {
+        fused.runs[i].trajectory = std::move(solution->trajectories[i]);
+    }
+    if (getenv("TW_DEBUG")) {
+        fprintf(stderr, "misfit %.3f -> %.3f, %zu pairs, %zu unknowns\n", solution->misfit_before_m,
+                solution->misfit_after_m, solution->crossovers.size(), solution->unknowns);
+        for (const NoiseFactor& f : solution->noise)
+            fprintf(stderr, "  %-32s rows %6zu red %8.1f scale %6.3f down %zu\n", f.source.c_str(), f.rows,
+                    f.redundancy, f.factor, f.down_weighted);
+    }
+    return fused;
+}
+
 }  // namespace
 
 Result<FusedSurvey> fuseSurvey(const Survey& survey, const FusionOptions& options, Progress& progress,
@@ -63,6 +96,9 @@ Result<FusedSurvey> fuseSurvey(const Survey& survey, const FusionOptions& option
     for (Result<FusedRun>& run : fused) {
         if (!run) return tl::unexpected(run.error());
         result.runs.push_back(std::move(*run));
+    }
+    if (options.method == FusionMethod::Terrawalk) {
+        return adjusted(survey, std::move(result), options, progress, stop);
     }
     return result;
 }

@@ -1,12 +1,16 @@
 #pragma once
 
+#include <cstddef>
+
+#include "fusion/crossovers.hpp"
 #include "survey/mark_stands.hpp"
 
 namespace terrawalk {
 
 enum class FusionMethod {
-    Raw,  ///< sensors as they are: latest GNSS position, barometric height
-    Ukf,  ///< 9-state unscented Kalman filter with a Rauch-Tung-Striebel pass
+    Raw,        ///< sensors as they are: latest GNSS position, barometric height
+    Ukf,        ///< 9-state unscented Kalman filter with a Rauch-Tung-Striebel pass
+    Terrawalk,  ///< filter with error states, then one adjustment of all runs with their crossovers
 };
 
 /// In which epochs the GNSS height enters the filter. Without a barometer in use, and while it is silent for
@@ -163,6 +167,39 @@ struct DivergenceOptions {
     int fewest_rejected = 20;  ///< GNSS positions of the run beyond the gate before their share counts
 };
 
+/// Errors that last: the states of the filter and the unknowns of the adjustment that follow them.
+struct LastingErrorOptions {
+    double gnss_correlation_s = 100.0;    ///< of the position error; its sigma is that of the fix
+    double gnss_white_share = 0.25;       ///< white noise as a share of the sigma of the fix
+    double gnss_white_share_fixed = 0.5;  ///< the same for RTK fixed
+    double heading_sigma_deg = 3.0;       ///< compass error that wanders
+    double heading_correlation_s = 400.0;
+    double hard_iron_sigma_deg = 2.5;       ///< A sin yaw + B cos yaw, the same in all runs
+    double hard_iron_run_sigma_deg = 0.7;   ///< by which a run differs from that
+    double flow_scale_sigma = 0.1;          ///< constant in a run
+    double flow_axes_sigma = 0.05;          ///< half the difference of the scales of forward and left
+    double gyro_bias_sigma_dps = 2.0;       ///< constant in a run
+    double gyro_walk_deg_per_sqrt_s = 0.05;  ///< by which a turn summed up from the gyro errs
+};
+
+/// The joint adjustment of all runs.
+struct JointOptions {
+    double knot_s = 1.0;  ///< between the knots of the track's correction
+    double heading_knot_s = 4.0;
+    double gnss_knot_s = 4.0;
+    double barometer_knot_s = 10.0;
+    int rounds = 5;  ///< Gauss-Newton rounds with crossovers
+    bool use_crossovers = true;
+    bool adapt_noise = true;  ///< noise factors by variance components
+    CrossoverOptions crossovers;
+    double pair_sigma_m = 0.05;               ///< of a misfit between passes over even ground
+    double pair_slope_share = 0.35;           ///< added per slope: plan errors within a pass
+    double pair_weight = 0.5;                 ///< neighbouring pairs share their points
+    double walk_mps_per_sqrt_s = 0.6;         ///< random walk of the horizontal velocity
+    double ground_climb_m_per_sqrt_m = 0.12;  ///< by which the ground below the walk wanders
+    double blind_climb_m_per_sqrt_s = 0.27;   ///< the same of the array where no range was measured
+};
+
 /// Every parameter of fusion. All sigmas are 1 sigma. Defaults were chosen on simulated surveys (seeds 1 to 3
 /// at three levels of faults) for small errors and for sigmas that own up to them.
 struct FusionOptions {
@@ -180,6 +217,8 @@ struct FusionOptions {
     AttitudeOptions attitude;
     TieOptions ties;
     RobustOptions robust;
+    LastingErrorOptions lasting;
+    JointOptions joint;
     DivergenceOptions divergence;
 };
 
