@@ -24,10 +24,10 @@ enum class OutageMethod {
     IntegratedFlow,    ///< optical flow turned by the heading and summed up
 };
 inline constexpr std::array<std::pair<OutageMethod, std::string_view>, 4> kOutageMethodNames{
-    {{OutageMethod::Forward, "fused, forward"},
-     {OutageMethod::Smoothed, "fused, smoothed"},
-     {OutageMethod::ConstantVelocity, "constant velocity"},
-     {OutageMethod::IntegratedFlow, "flow and heading"}}};
+    {{OutageMethod::Forward, "forward"},
+     {OutageMethod::Smoothed, "smoothed"},
+     {OutageMethod::ConstantVelocity, "last velocity"},
+     {OutageMethod::IntegratedFlow, "flow"}}};
 
 struct OutageOptions {
     std::vector<double> lengths_s{10.0, 30.0, 60.0};

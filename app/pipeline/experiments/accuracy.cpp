@@ -134,6 +134,19 @@ void addGroup(std::span<const Trial> trials, std::size_t m, const std::string& m
     report.summary.rows.push_back(std::move(row));
 }
 
+/// One range for all panels, so that they can be compared at a glance.
+void shareHeightAxis(Plot& plot) {
+    std::vector<double> ratios;
+    for (const PlotPanel& panel : plot.panels) {
+        for (const PlotSeries& series : panel.series) {
+            for (const auto& [seed, ratio] : series.points) ratios.push_back(ratio);
+        }
+    }
+    if (ratios.empty()) return;
+    const auto [least, greatest] = std::minmax_element(ratios.begin(), ratios.end());
+    for (PlotPanel& panel : plot.panels) panel.y.range = std::pair{0.95 * *least, 1.05 * *greatest};
+}
+
 }  // namespace
 
 Result<ExperimentReport> runAccuracy(const ExperimentOptions& options, Progress& progress,
@@ -174,6 +187,7 @@ Result<ExperimentReport> runAccuracy(const ExperimentOptions& options, Progress&
         }
         report.plot.panels.push_back(std::move(panel));
     }
+    shareHeightAxis(report.plot);
     const std::vector<std::string> notes{
         fmt::format("seeds {} to {}, {} epochs of area walk and {} fixed-point runs each, GNSS single point",
                     first_seed, first_seed + surveys - 1, SimulationOptions{}.area_epochs,

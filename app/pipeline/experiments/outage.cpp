@@ -85,7 +85,7 @@ Result<ExperimentReport> runOutage(const ExperimentOptions& options, Progress& p
     tabulate(*outages, measured, report);
     report.data.columns = {"run", "start [s]", "outage [s]"};
     for (const auto& [method, text] : kOutageMethodNames)
-        report.data.columns.push_back(fmt::format("{} [m]", text));
+        report.data.columns.push_back(fmt::format("{}, error [m]", text));
     for (const Outage& outage : *outages) {
         std::vector<Cell> row{subject->survey.runs[outage.run].id, outage.start_s, outage.length_s};
         row.insert(row.end(), outage.error_m.begin(), outage.error_m.end());
@@ -98,9 +98,12 @@ Result<ExperimentReport> runOutage(const ExperimentOptions& options, Progress& p
         subject->truth ? "reference: the truth of the simulation"
                        : "reference: the integral of the receiver's Doppler velocity, itself in error by a "
                          "metre or more; what is below that is no error of the track",
-        fmt::format("fused, forward: the log ends with the outage; smoothed: {} s follow; both from {} s "
-                    "before it, as far as the log has so much",
-                    measured.following_s, measured.history_s),
+        fmt::format(
+            "forward: fusion of a log that ends with the outage; smoothed: of one in which {} s follow; "
+            "both from {} s before it, as far as the log has so much",
+            measured.following_s, measured.history_s),
+        "last velocity: the Doppler velocity before the outage goes on; flow: turned by the heading and "
+        "summed up",
     };
     return report;
 }
