@@ -158,9 +158,26 @@ std::vector<Supernode> supernodesOf(const Matrix& L) {
 }  // namespace
 
 struct SelectedInverse::Blocks {
+    /// The pattern of the factor, values yet to come.
+    Blocks(const Indices& places, const Matrix& L)
+        : place(places), supernodes(supernodesOf(L)), supernode_of(places.size()), values(supernodes.size()) {
+        std::size_t row_count = 0;
+        for (const Supernode& node : supernodes) row_count += static_cast<std::size_t>(node.row_count);
+        rows.reserve(row_count);
+        for (std::size_t s = 0; s < supernodes.size(); ++s) {
+            Supernode& node = supernodes[s];
+            const int* copied = rows.data() + rows.size();
+            rows.insert(rows.end(), node.rows, node.rows + node.row_count);
+            node.rows = copied;
+            std::fill(supernode_of.begin() + node.first, supernode_of.begin() + node.end, s);
+        }
+    }
+    Blocks(const Blocks&) = delete;  // supernodes point into it
+    Blocks& operator=(const Blocks&) = delete;
+
     Indices place;
     std::vector<Supernode> supernodes;  ///< their rows point into `rows`
-    std::vector<int> rows;
+    Indices rows;
     std::vector<std::size_t> supernode_of;  ///< of each column
     /// Of each supernode: its own rows and columns, then the rows below. The first square is full.
     std::vector<Eigen::MatrixXd> values;
@@ -319,22 +336,7 @@ Index SparseCholesky::factorNonZeros() const {
 
 SelectedInverse SparseCholesky::selectedInverse() const {
     const Matrix& L = factor_->L();
-    auto inverse = std::make_shared<SelectedInverse::Blocks>();
-    inverse->place = factor_->place;
-    inverse->supernodes = supernodesOf(L);
-    inverse->supernode_of.resize(static_cast<std::size_t>(L.cols()));
-    std::size_t rows = 0;
-    for (const Supernode& node : inverse->supernodes) rows += static_cast<std::size_t>(node.row_count);
-    inverse->rows.reserve(rows);
-    for (std::size_t s = 0; s < inverse->supernodes.size(); ++s) {
-        Supernode& node = inverse->supernodes[s];
-        const int* copied = inverse->rows.data() + inverse->rows.size();
-        inverse->rows.insert(inverse->rows.end(), node.rows, node.rows + node.row_count);
-        node.rows = copied;
-        for (Index j = node.first; j < node.end; ++j) inverse->supernode_of[static_cast<std::size_t>(j)] = s;
-    }
-    inverse->values.resize(inverse->supernodes.size());
-
+    auto inverse = std::make_shared<SelectedInverse::Blocks>(factor_->place, L);
     Eigen::MatrixXd L_JJ, Y, Z_RR;
     std::vector<Index> row_in_block;
     for (std::size_t s = inverse->supernodes.size(); s-- > 0;) {
@@ -348,16 +350,15 @@ SelectedInverse SparseCholesky::selectedInverse() const {
             std::copy(column + (width - k), column + (width - k) + node.row_count, Y.col(k).data());
         }
         const auto triangle = L_JJ.triangularView<Eigen::Lower>();
-        triangle.solveInPlace<Eigen::OnTheRight>(Y);
+        const Eigen::MatrixXd L_inverse = triangle.solve(Eigen::MatrixXd::Identity(width, width));
         Eigen::MatrixXd& Z = inverse->values[s];
         Z.resize(width + node.row_count, width);
-        const Eigen::MatrixXd L_inverse = triangle.solve(Eigen::MatrixXd::Identity(width, width));
         Z.topRows(width).noalias() = L_inverse.transpose() * L_inverse;
-        if (node.row_count > 0) {
-            inverse->gatherBelow(node, row_in_block, Z_RR);
-            Z.bottomRows(node.row_count).noalias() = -(Z_RR.selfadjointView<Eigen::Lower>() * Y);
-            Z.topRows(width).noalias() -= Y.transpose() * Z.bottomRows(node.row_count);
-        }
+        if (node.row_count == 0) continue;
+        triangle.solveInPlace<Eigen::OnTheRight>(Y);
+        inverse->gatherBelow(node, row_in_block, Z_RR);
+        Z.bottomRows(node.row_count).noalias() = -(Z_RR.selfadjointView<Eigen::Lower>() * Y);
+        Z.topRows(width).noalias() -= Y.transpose() * Z.bottomRows(node.row_count);
     }
     return SelectedInverse(std::move(inverse));
 }
