@@ -9,6 +9,7 @@
 
 #include "app/pipeline/accuracy_measure.hpp"
 #include "app/pipeline/config.hpp"
+#include "app/pipeline/crossover_misfit.hpp"
 #include "app/pipeline/experiments/experiments.hpp"
 #include "app/pipeline/jobs.hpp"
 #include "app/pipeline/outage_measure.hpp"
@@ -66,6 +67,18 @@ void tabulate(const std::vector<Outage>& outages, const OutageOptions& measured,
     }
 }
 
+/// How well the ground heights of the whole survey agree with one another, with GNSS everywhere.
+Result<std::string> agreement(const Survey& survey, FusionMethod method, Progress& progress,
+                              const std::stop_token& stop) {
+    PipelineConfig config;
+    config.fusion.method = method;
+    const auto track = trackGround(survey, config.fusion, config.ground, progress, stop);
+    if (!track) return tl::unexpected(track.error());
+    const CrossoverMisfit misfit = crossoverMisfit(*track);
+    return fmt::format("{:.3f} m RMS, {:.3f} m median at {} places", misfit.rms_m, misfit.median_m,
+                       misfit.crossovers);
+}
+
 }  // namespace
 
 Result<ExperimentReport> runOutage(const ExperimentOptions& options, Progress& progress,
@@ -79,6 +92,12 @@ Result<ExperimentReport> runOutage(const ExperimentOptions& options, Progress& p
     const auto outages = measureOutages(subject->survey, PipelineConfig{}.fusion, measured,
                                         subject->truth ? &*subject->truth : nullptr, masking, stop);
     if (!outages) return tl::unexpected(outages.error());
+
+    SilentProgress silent;
+    const auto raw = agreement(subject->survey, FusionMethod::Raw, silent, stop);
+    if (!raw) return tl::unexpected(raw.error());
+    const auto fused = agreement(subject->survey, PipelineConfig{}.fusion.method, silent, stop);
+    if (!fused) return tl::unexpected(fused.error());
 
     ExperimentReport report{.title = "GNSS outages: " + subject->survey.name,
                             .simulated = subject->truth.has_value()};
@@ -102,6 +121,9 @@ Result<ExperimentReport> runOutage(const ExperimentOptions& options, Progress& p
             "forward: fusion of a log that ends with the outage; smoothed: of one in which {} s follow; "
             "both from {} s before it, as far as the log has so much",
             measured.following_s, measured.history_s),
+        fmt::format("ground heights where the track comes back within 0.5 m after 20 s or more, without an "
+                    "outage: raw {}; fused {}",
+                    *raw, *fused),
         "last velocity: the Doppler velocity before the outage goes on; flow: turned by the heading and "
         "summed up",
     };
