@@ -16,6 +16,7 @@ namespace terrawalk {
 namespace {
 
 constexpr std::array kExperiments{
+    Experiment{"fig7", "Paper 000, Fig 7: convergence of optimisers on classical functions", runFig7},
     Experiment{"fig8", "Paper 000, Fig 8: evenness of initial populations", runFig8},
 };
 
