@@ -16,6 +16,7 @@ namespace terrawalk {
 namespace {
 
 constexpr std::array kExperiments{
+    Experiment{"fig7", "Paper 000, Fig 7: convergence of optimisers on classical functions", runFig7},
     Experiment{"fig8", "Paper 000, Fig 8: evenness of initial populations", runFig8},
     Experiment{"accuracy", "Simulated surveys against their truth, by level of faults", runAccuracy},
     Experiment{"outage", "GNSS masked for 10, 30 and 60 s in a survey's logs, or in a simulated walk's",

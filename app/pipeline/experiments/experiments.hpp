@@ -6,6 +6,8 @@ namespace terrawalk {
 
 // The experiments, one file each. To add one: its file, its line here, its line in `experiments()`.
 
+[[nodiscard]] Result<ExperimentReport> runFig7(const ExperimentOptions& options, Progress& progress,
+                                               std::stop_token stop);
 [[nodiscard]] Result<ExperimentReport> runFig8(const ExperimentOptions& options, Progress& progress,
                                                std::stop_token stop);
 
