@@ -84,7 +84,8 @@ struct PlaneFit {
 
 // One slope, one height for each pass; hits on plants are held off by Huber weights.
 PlaneFit fitPlanes(std::span<const GroundSample> samples, const std::vector<std::uint32_t>& near,
-                   std::span<const Pass> passes, const Eigen::Vector2d& place_m, const CrossoverOptions& options) {
+                   std::span<const Pass> passes, const Eigen::Vector2d& place_m,
+                   const CrossoverOptions& options) {
     constexpr int kReweights = 3;
     constexpr double kHuber_m = 0.08;
     PlaneFit fit;
@@ -102,9 +103,8 @@ PlaneFit fitPlanes(std::span<const GroundSample> samples, const std::vector<std:
                 a[static_cast<Eigen::Index>(p)] = 1.0;
                 a.tail<2>() = at.head<2>() - place_m;
                 const double residual = at.z() - a.dot(x);
-                const double near_weight =
-                    std::exp(-0.5 * (at.head<2>() - place_m).squaredNorm() /
-                             (options.bandwidth_m * options.bandwidth_m));
+                const double near_weight = std::exp(-0.5 * (at.head<2>() - place_m).squaredNorm() /
+                                                    (options.bandwidth_m * options.bandwidth_m));
                 const double weight =
                     near_weight *
                     (round == 0 ? 1.0 : std::min(1.0, kHuber_m / std::max(std::abs(residual), 1e-9)));

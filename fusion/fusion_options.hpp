@@ -105,7 +105,7 @@ struct FlowOptions {
     bool bridge_dropouts = true;
     double bridge_after_s = 0.6;     ///< without a used reading [s]
     double bridge_longest_s = 10.0;  ///< since the last used reading; then the walk may be any other [s]
-    double bridge_sigma_mps = 0.3;   ///< of the stand-in, which errs in the same way for `bridge_memory_s`
+    double bridge_sigma_mps = 0.2;   ///< of the stand-in, which errs in the same way for `bridge_memory_s`
     double bridge_memory_s = 5.0;    ///< over which the mean is taken [s]
 };
 
@@ -174,11 +174,11 @@ struct LastingErrorOptions {
     double gnss_white_share_fixed = 0.5;  ///< the same for RTK fixed
     double heading_sigma_deg = 3.0;       ///< compass error that wanders
     double heading_correlation_s = 400.0;
-    double hard_iron_sigma_deg = 2.5;       ///< A sin yaw + B cos yaw, the same in all runs
-    double hard_iron_run_sigma_deg = 0.7;   ///< by which a run differs from that
-    double flow_scale_sigma = 0.1;          ///< constant in a run
-    double flow_axes_sigma = 0.05;          ///< half the difference of the scales of forward and left
-    double gyro_bias_sigma_dps = 2.0;       ///< constant in a run
+    double hard_iron_sigma_deg = 2.5;        ///< A sin yaw + B cos yaw, the same in all runs
+    double hard_iron_run_sigma_deg = 0.7;    ///< by which a run differs from that
+    double flow_scale_sigma = 0.1;           ///< constant in a run
+    double flow_axes_sigma = 0.05;           ///< half the difference of the scales of forward and left
+    double gyro_bias_sigma_dps = 2.0;        ///< constant in a run
     double gyro_walk_deg_per_sqrt_s = 0.05;  ///< by which a turn summed up from the gyro errs
 };
 
@@ -192,8 +192,12 @@ struct JointOptions {
     bool use_crossovers = true;
     bool adapt_noise = true;  ///< noise factors by variance components
     CrossoverOptions crossovers;
-    double pair_sigma_m = 0.05;               ///< of a misfit between passes over even ground
-    double pair_slope_share = 0.35;           ///< added per slope: plan errors within a pass
+    /// Sigma of a misfit: pair_sigma_m + g / (g + pair_even_slope) (pair_uneven_m + pair_apart_per_m d^2),
+    /// with slope g and distance of the passes d, errors of the tracks counted in.
+    double pair_sigma_m = 0.025;
+    double pair_even_slope = 0.2;
+    double pair_uneven_m = 0.07;
+    double pair_apart_per_m = 0.35;
     double pair_weight = 0.5;                 ///< neighbouring pairs share their points
     double walk_mps_per_sqrt_s = 0.6;         ///< random walk of the horizontal velocity
     double ground_climb_m_per_sqrt_m = 0.12;  ///< by which the ground below the walk wanders

@@ -197,6 +197,7 @@ class RunModel {
     // Optical flow of each epoch, forward and left; where there was none, the mean of those around it.
     std::vector<Eigen::Vector2d> flow_mps;
     std::vector<double> bridge_sigma_mps;  // zero where the flow was measured
+    std::vector<double> plan_variance_m2;  // of each knot, per axis, as of the last solution
     std::vector<double> above_ground_m;    // height of the array above the ground below it, spikes left out
     std::vector<Chain::Place> at;          // of each epoch in `correction`
     std::vector<Chain::Place> psi_at;
@@ -225,6 +226,7 @@ class JointAdjuster {
         JointSolution result;
         result.unknowns = unknowns_;
         std::vector<RowGroup> groups = rowGroups(true);
+        std::optional<SparseLeastSquares> before;
         const int last = 1 + options_.joint.rounds;
         for (int round = 0; round <= last; ++round) {
             if (stop_.stop_requested()) return cancelled();
@@ -235,13 +237,16 @@ class JointAdjuster {
             if (round == 0) result.misfit_before_m = misfit();
             SparseLeastSquares system(unknowns_, robust ? groups : rowGroups(false));
             addRows(system, with_pairs);
-            if (round == last) wantCovariances(system);
+            wantCovariances(system);
+            // With other crossovers another order of elimination is good.
+            if (before && !with_pairs) system.continueFrom(*before);
             const auto solution = system.solve();
             if (!solution) {
                 return badData("the adjustment of all runs has no solution", survey_.project_file, 0,
                                "use --method ukf, or leave out the run that has no position");
             }
             takeSolution(*solution);
+            takePlanVariances(system);
             const bool adapts = options_.joint.adapt_noise && round > 0 && round < last;
             if (adapts || round == last) {
                 const std::vector<GroupStatistics> statistics = system.statistics(*solution);
@@ -256,6 +261,7 @@ class JointAdjuster {
                     for (const RunModel& run : runs_) result.trajectories.push_back(trajectory(run, system));
                 }
             }
+            before.emplace(std::move(system));
         }
         if (options_.joint.use_crossovers) {
             findPairs();
@@ -1001,11 +1007,19 @@ class JointAdjuster {
         return pairs_.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(pairs_.size()));
     }
 
-    double pairSigma(const Eigen::Vector2d& slope, double roughness_m, double points) const {
+    // Planes fit where the ground is even; where it is not, they fit the worse the farther apart the passes
+    // are, or may be.
+    double pairSigma(const Eigen::Vector2d& slope, double roughness_m, double apart_m2) const {
         const JointOptions& o = options_.joint;
-        return std::sqrt((squared(o.pair_sigma_m) + squared(o.pair_slope_share) * slope.squaredNorm() +
-                          4.0 * squared(roughness_m) / points) /
-                         o.pair_weight);
+        const double uneven = slope.norm() / (slope.norm() + o.pair_even_slope);
+        const double sigma =
+            o.pair_sigma_m + uneven * (o.pair_uneven_m + o.pair_apart_per_m * std::min(apart_m2, 4.0));
+        return std::sqrt((squared(sigma) + squared(0.5 * roughness_m)) / o.pair_weight);
+    }
+
+    double planVariance(std::size_t run, std::size_t epoch) const {
+        const RunModel& r = runs_[run];
+        return r.plan_variance_m2.empty() ? 1.0 : r.plan_variance_m2[r.at[epoch].knot];
     }
 
     void ground(const RunModel& run, std::size_t epoch, const Eigen::Vector2d& slope, double sign) {
@@ -1020,7 +1034,9 @@ class JointAdjuster {
             ground(runs_[pair.run_a], pair.epoch_a, pair.slope, 1.0);
             ground(runs_[pair.run_b], pair.epoch_b, pair.slope, -1.0);
             system.addRow(kPair, row_.all(), -pair.misfit_m,
-                          pairSigma(pair.slope, pair.roughness_m, pair.points));
+                          pairSigma(pair.slope, pair.roughness_m,
+                                    squared(pair.apart_m) + planVariance(pair.run_a, pair.epoch_a) +
+                                        planVariance(pair.run_b, pair.epoch_b)));
         }
         for (const MarkPass& pass : mark_passes_) {
             row_.clear();
@@ -1028,7 +1044,9 @@ class JointAdjuster {
             // A single pass does not tell the slope across its way.
             const double aside = squared(0.2 * pass.apart_m);
             system.addRow(kMarkPass, row_.all(), -pass.misfit_m,
-                          std::hypot(pairSigma(pass.slope, pass.roughness_m, pass.points), std::sqrt(aside)));
+                          std::hypot(pairSigma(pass.slope, pass.roughness_m,
+                                               squared(pass.apart_m) + planVariance(pass.run, pass.epoch)),
+                                     std::sqrt(aside)));
         }
     }
 
@@ -1064,6 +1082,17 @@ class JointAdjuster {
                 if (run.has_gyro) run.turn.take(solution);
                 for (Scalar* s : {&run.iron_sin, &run.iron_cos, &run.scale, &run.axes, &run.gyro_bias})
                     add(*s);
+            }
+        }
+    }
+
+    void takePlanVariances(SparseLeastSquares& system) {
+        for (RunModel& run : runs_) {
+            run.plan_variance_m2.resize(run.correction.knots());
+            for (std::size_t k = 0; k < run.correction.knots(); ++k) {
+                const std::size_t e = run.correction.unknown(k, 0);
+                const std::size_t n = run.correction.unknown(k, 1);
+                run.plan_variance_m2[k] = 0.5 * (system.covariance(e, e) + system.covariance(n, n));
             }
         }
     }

@@ -1,11 +1,9 @@
 #include "fusion/sparse_least_squares.hpp"
 
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 namespace terrawalk {
 
@@ -47,78 +45,8 @@ double expectedWeightedSquare(Loss loss, double tuning) {
     return sum / mass;
 }
 
-struct SparseLeastSquares::Factor {
-    Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> ldlt;
-    // Selected inverse, in the order of the factor: column starts and rows of L's pattern, with the diagonal
-    // apart.
-    std::vector<double> inverse_diagonal;
-    std::vector<double> inverse_lower;
-    std::vector<int> where;  // row -> place in the column under work
-
-    void invert() {
-        const SparseMatrix& L = ldlt.matrixL().nestedExpression();
-        const auto n = static_cast<std::size_t>(L.cols());
-        const int* outer = L.outerIndexPtr();
-        const int* inner = L.innerIndexPtr();
-        const double* value = L.valuePtr();
-        inverse_diagonal.assign(n, 0.0);
-        inverse_lower.assign(static_cast<std::size_t>(L.nonZeros()), 0.0);
-        std::vector<double> sum;
-        const Eigen::VectorXd& D = ldlt.vectorD();
-        where.assign(n, -1);
-        // Z_ij = -sum_k Z_ik L_kj for the rows of column j, then Z_jj = 1/d_j - sum_k L_kj Z_kj.
-        for (std::size_t jj = n; jj-- > 0;) {
-            const auto j = static_cast<int>(jj);
-            const int begin = outer[j];
-            const int end = outer[j + 1];
-            const auto m = static_cast<std::size_t>(end - begin);
-            sum.assign(m, 0.0);
-            for (int p = begin; p < end; ++p) where[static_cast<std::size_t>(inner[p])] = p - begin;
-            for (int p = begin; p < end; ++p) {
-                const int k = inner[p];
-                const double Lkj = value[p];
-                const auto at_k = static_cast<std::size_t>(p - begin);
-                sum[at_k] -= Lkj * inverse_diagonal[static_cast<std::size_t>(k)];
-                for (int q = outer[k]; q < outer[k + 1]; ++q) {
-                    const int at = where[static_cast<std::size_t>(inner[q])];
-                    if (at < 0) continue;
-                    const double z = inverse_lower[static_cast<std::size_t>(q)];
-                    sum[static_cast<std::size_t>(at)] -= Lkj * z;
-                    sum[at_k] -= value[begin + at] * z;
-                }
-            }
-            double diagonal = 1.0 / D[j];
-            for (int p = begin; p < end; ++p) {
-                inverse_lower[static_cast<std::size_t>(p)] = sum[static_cast<std::size_t>(p - begin)];
-                diagonal -= value[p] * sum[static_cast<std::size_t>(p - begin)];
-                where[static_cast<std::size_t>(inner[p])] = -1;
-            }
-            inverse_diagonal[jj] = diagonal;
-        }
-    }
-
-    double entry(std::size_t i, std::size_t j) {
-        if (inverse_diagonal.empty()) invert();
-        const auto& order = ldlt.permutationP().indices();
-        int a = order[static_cast<Eigen::Index>(i)];
-        int b = order[static_cast<Eigen::Index>(j)];
-        if (a == b) return inverse_diagonal[static_cast<std::size_t>(a)];
-        if (a > b) std::swap(a, b);
-        const SparseMatrix& L = ldlt.matrixL().nestedExpression();
-        const int* begin = L.innerIndexPtr() + L.outerIndexPtr()[a];
-        const int* end = L.innerIndexPtr() + L.outerIndexPtr()[a + 1];
-        const int* found = std::lower_bound(begin, end, b);
-        if (found == end || *found != b) return std::numeric_limits<double>::quiet_NaN();
-        return inverse_lower[static_cast<std::size_t>(found - L.innerIndexPtr())];
-    }
-};
-
 SparseLeastSquares::SparseLeastSquares(std::size_t unknowns, std::vector<RowGroup> groups)
     : unknowns_(unknowns), groups_(std::move(groups)) {}
-SparseLeastSquares::~SparseLeastSquares() = default;
-SparseLeastSquares::SparseLeastSquares(SparseLeastSquares&&) noexcept = default;
-SparseLeastSquares& SparseLeastSquares::operator=(SparseLeastSquares&&) noexcept = default;
-
 std::size_t SparseLeastSquares::addRow(std::size_t group, std::span<const Coefficient> coefficients,
                                        double residual, double sigma) {
     assert(sigma > 0.0 && group < groups_.size());
@@ -164,17 +92,22 @@ std::optional<Eigen::VectorXd> SparseLeastSquares::solve() {
     }
     SparseMatrix normal(static_cast<int>(unknowns_), static_cast<int>(unknowns_));
     normal.setFromTriplets(entries.begin(), entries.end());
-    factor_ = std::make_unique<Factor>();
-    factor_->ldlt.compute(normal);
-    if (factor_->ldlt.info() != Eigen::Success) return std::nullopt;
-    if (!(factor_->ldlt.vectorD().minCoeff() > 0.0)) return std::nullopt;
-    Eigen::VectorXd solution = factor_->ldlt.solve(right);
+    inverse_.reset();
+    if (factor_) {
+        if (!factor_->refactorize(normal)) return std::nullopt;
+    } else {
+        auto factor = SparseCholesky::factorize(normal);
+        if (!factor) return std::nullopt;
+        factor_ = std::move(*factor);
+    }
+    Eigen::VectorXd solution = factor_->solve(right);
     if (!solution.allFinite()) return std::nullopt;
     return solution;
 }
 
 double SparseLeastSquares::covariance(std::size_t i, std::size_t j) {
-    return factor_->entry(i, j);
+    if (!inverse_) inverse_ = factor_->selectedInverse();
+    return inverse_->at(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
 }
 
 std::vector<GroupStatistics> SparseLeastSquares::statistics(const Eigen::VectorXd& solution) {

@@ -4,12 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "fusion/selected_inverse.hpp"
 
 namespace terrawalk {
 
@@ -56,9 +57,6 @@ struct Coefficient {
 class SparseLeastSquares {
   public:
     SparseLeastSquares(std::size_t unknowns, std::vector<RowGroup> groups);
-    ~SparseLeastSquares();
-    SparseLeastSquares(SparseLeastSquares&&) noexcept;
-    SparseLeastSquares& operator=(SparseLeastSquares&&) noexcept;
 
     /// @param sigma  > 0
     /// @return number of the row
@@ -71,6 +69,9 @@ class SparseLeastSquares {
 
     /// Asks for the covariance of two unknowns that may stand in no row together. Before solve().
     void wantCovariance(std::size_t i, std::size_t j) { wanted_.emplace_back(i, j); }
+
+    /// Takes the order of elimination of an earlier system with much the same pattern.
+    void continueFrom(SparseLeastSquares& earlier) { factor_ = std::move(earlier.factor_); }
 
     /// Least-squares x for the weights of the present residuals; nothing when the rows do not determine it.
     [[nodiscard]] std::optional<Eigen::VectorXd> solve();
@@ -92,7 +93,6 @@ class SparseLeastSquares {
     [[nodiscard]] double robustWeight(std::size_t row) const;
 
   private:
-    struct Factor;
     [[nodiscard]] double weightOf(std::size_t row, double residual) const;
 
     std::size_t unknowns_;
@@ -103,7 +103,8 @@ class SparseLeastSquares {
     std::vector<double> sigmas_;
     std::vector<std::uint32_t> row_groups_;
     std::vector<std::pair<std::size_t, std::size_t>> wanted_;
-    std::unique_ptr<Factor> factor_;
+    std::optional<SparseCholesky> factor_;
+    std::optional<SelectedInverse> inverse_;
 };
 
 /// Expected weight (r / sigma)^2 of a standard normal r under a loss; what weighted squares are divided by.

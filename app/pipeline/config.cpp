@@ -451,10 +451,15 @@ std::vector<Parameter> surfaceParameters() {
                TERRAWALK_FIELD(fusion.joint.crossovers.ridge_m2)),
         integer<std::size_t>("fusion.joint.crossovers.fewest_points", 1, 1000, "of each pass at a crossover",
                              TERRAWALK_FIELD(fusion.joint.crossovers.fewest_points)),
-        number("fusion.joint.pair_sigma_m", 0.001, 10, "of the misfit of two passes over even ground",
+        number("fusion.joint.pair_sigma_m", 0.001, 10, "misfit of two passes over even ground",
                TERRAWALK_FIELD(fusion.joint.pair_sigma_m)),
-        number("fusion.joint.pair_slope_share", 0, 10, "added for each unit of slope",
-               TERRAWALK_FIELD(fusion.joint.pair_slope_share)),
+        number("fusion.joint.pair_even_slope", 0.001, 10, "slope at which ground is half uneven",
+               TERRAWALK_FIELD(fusion.joint.pair_even_slope)),
+        number("fusion.joint.pair_uneven_m", 0, 10, "added to the misfit over uneven ground",
+               TERRAWALK_FIELD(fusion.joint.pair_uneven_m)),
+        number("fusion.joint.pair_apart_per_m", 0, 10,
+               "added to that, times the squared distance of the passes",
+               TERRAWALK_FIELD(fusion.joint.pair_apart_per_m)),
         number("fusion.joint.pair_weight", 0.01, 1, "neighbouring crossovers share points",
                TERRAWALK_FIELD(fusion.joint.pair_weight)),
         number("fusion.joint.walk_mps_per_sqrt_s", 0.01, 100, "random walk of the horizontal velocity",
@@ -469,7 +474,7 @@ std::vector<Parameter> surfaceParameters() {
 }
 
 // An option that is added without a parameter could be neither set nor reported.
-static_assert(sizeof(FusionOptions) == 920, "add the new option to fusionParameters()");
+static_assert(sizeof(FusionOptions) == 936, "add the new option to fusionParameters()");
 static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
 static_assert(sizeof(SurfaceOptions) == 32, "add the new option to surfaceParameters()");
 
