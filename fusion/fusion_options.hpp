@@ -200,7 +200,8 @@ struct JointOptions {
     double pair_apart_per_m = 0.35;
     double pair_weight = 0.5;                 ///< neighbouring pairs share their points
     double walk_mps_per_sqrt_s = 0.6;         ///< random walk of the horizontal velocity
-    double ground_climb_m_per_sqrt_m = 0.12;  ///< by which the ground below the walk wanders
+    double ground_roughness_m = 0.05;         ///< of the ground below the walk about its level
+    double ground_climb_m_per_sqrt_m = 0.03;  ///< by which that level wanders
     double blind_climb_m_per_sqrt_s = 0.27;   ///< the same of the array where no range was measured
 };
 

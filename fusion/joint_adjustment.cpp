@@ -40,6 +40,7 @@ enum Group : std::size_t {
     kHeading,
     kWalk,
     kClimb,
+    kRoughness,
     kBlindClimb,
     kPair,
     kMarkPass,
@@ -68,15 +69,16 @@ std::vector<RowGroup> rowGroups(bool robust) {
     set(kBarometerDrift, "barometer drift", Loss::Square, 3.0, true, 0.1, 6.0);
     set(kGust, "barometer gusts", Loss::Square, 3.0, true, 0.1, 6.0);
     set(kFlow, "optical flow", Loss::Huber, 3.0, true, 0.3, 6.0);
-    set(kBridge, "optical flow bridged", Loss::Square, 2.0, false);
+    set(kBridge, "optical flow bridged", Loss::Square, 2.0, true, 0.3, 3.0);
     set(kCompass, "compass drift", Loss::Huber, 3.0, true, 0.2, 6.0);
     set(kGyro, "gyro", Loss::Huber, 3.0, true, 0.2, 20.0);
     set(kHeading, "compass noise", Loss::Cauchy, 3.0, true, 0.2, 10.0);
     set(kWalk, "walk", Loss::Square, 2.0, false);
     set(kClimb, "ground climb", Loss::Cauchy, 2.0, true, 0.2, 6.0);
+    set(kRoughness, "ground roughness", Loss::Huber, 2.0, true, 0.2, 6.0);
     set(kBlindClimb, "climb", Loss::Huber, 2.0, false);
-    set(kPair, "crossovers", Loss::Cauchy, 3.0, true, 0.3, 5.0);
-    set(kMarkPass, "passes over marks", Loss::Cauchy, 3.0, true, 0.3, 5.0);
+    set(kPair, "crossovers", Loss::Cauchy, 3.0, true, 0.9, 5.0);
+    set(kMarkPass, "passes over marks", Loss::Cauchy, 3.0, true, 0.9, 5.0);
     return groups;
 }
 
@@ -123,6 +125,8 @@ class Chain {
     std::size_t unknown(std::size_t k, std::size_t part = 0) const { return first_ + k * stride_ + part; }
     std::size_t unknowns() const { return values_.size(); }
     double knotValue(std::size_t k, std::size_t part = 0) const { return values_[k * stride_ + part]; }
+
+    void setKnotValue(std::size_t k, double value) { values_[k * stride_] = value; }
 
     struct Place {
         std::size_t knot = 0;
@@ -185,11 +189,12 @@ class RunModel {
     std::vector<Eigen::Vector3d> track_m;  // as corrected so far
     std::vector<double> yaw_rad;           // as measured, unwrapped nowhere
     Chain correction;                      // e, n, u of the track
-    Chain psi;                             // compass error that wanders
-    Chain turn;                            // error of the turn summed up from the gyro
-    std::vector<double> base_yaw_rad;      // what `turn` corrects: summed gyro, continuous
-    std::vector<bool> base_broken;         // the gyro was silent before this epoch
-    Chain drift, gust;                     // barometer
+    Chain level;  // of the ground along the track, as far as it is even; knots as in `correction`
+    Chain psi;    // compass error that wanders
+    Chain turn;   // error of the turn summed up from the gyro
+    std::vector<double> base_yaw_rad;     // what `turn` corrects: summed gyro, continuous
+    std::vector<double> base_doubt_rad2;  // variance of the turn before this epoch where the gyro was silent
+    Chain drift, gust;                    // barometer
     std::vector<GnssSegment> segments;
     std::vector<GnssEpoch> gnss;
     Scalar iron_sin, iron_cos, scale, axes, gyro_bias;
@@ -197,6 +202,7 @@ class RunModel {
     // Optical flow of each epoch, forward and left; where there was none, the mean of those around it.
     std::vector<Eigen::Vector2d> flow_mps;
     std::vector<double> bridge_sigma_mps;  // zero where the flow was measured
+    std::vector<bool> level_known;         // whether a range was measured about the knot
     std::vector<double> plan_variance_m2;  // of each knot, per axis, as of the last solution
     std::vector<double> above_ground_m;    // height of the array above the ground below it, spikes left out
     std::vector<Chain::Place> at;          // of each epoch in `correction`
@@ -326,22 +332,38 @@ class JointAdjuster {
         if (2 * known < n) return;
         run.has_gyro = true;
         run.base_yaw_rad.assign(n, 0.0);
-        run.base_broken.assign(n, false);
+        run.base_doubt_rad2.assign(n, 0.0);
         run.base_yaw_rad[0] = run.yaw_rad[0];
+        constexpr double kUnknownRate_radps = radians(20.0);  // change of rate from one record to the next
         const double longest_s = 1.5 * usualStep(log);
+        const double compass_step = 2.0 * squared(compassNoise_rad());
         for (std::size_t i = 1; i < n; ++i) {
             const double dt = log.time_s[i] - log.time_s[i - 1];
             const bool summed = present(rate[i]) && present(rate[i - 1]) && dt <= longest_s;
+            const bool compass =
+                present(log.value(Channel::Heading, i)) && present(log.value(Channel::Heading, i - 1));
             // A stride turns the hand by degrees between two records: over a gap the compass tells more.
-            const double turned =
-                summed ? 0.5 * dt * (rate[i] + rate[i - 1]) : wrapAngle(run.yaw_rad[i] - run.yaw_rad[i - 1]);
+            double turned = 0.0;
+            if (summed) {
+                turned = 0.5 * dt * (rate[i] + rate[i - 1]);
+            } else if (compass) {
+                turned = wrapAngle(run.yaw_rad[i] - run.yaw_rad[i - 1]);
+                run.base_doubt_rad2[i] = compass_step;
+            } else {
+                const double known_rate = present(rate[i]) ? rate[i] : rate[i - 1];
+                turned = present(known_rate) ? dt * known_rate : 0.0;
+                run.base_doubt_rad2[i] = squared(dt * kUnknownRate_radps);
+            }
             run.base_yaw_rad[i] = run.base_yaw_rad[i - 1] + turned;
-            run.base_broken[i] = !summed && present(log.value(Channel::Heading, i));
         }
         run.has_gyro = followCompass(run);
         if (!run.has_gyro) return;
         for (std::size_t i = 0; i < n; ++i) run.turn.cover(log.time_s[i], options_.joint.heading_knot_s);
     }
+
+    // White noise of the compass, a sixth of what it may be off at any time (paper 000, table 1: 0.5
+    // degrees).
+    double compassNoise_rad() const { return radians(options_.attitude.sigma_heading_deg) / 6.0; }
 
     static double usualStep(const ArrayLog& log) {
         std::vector<double> steps;
@@ -517,6 +539,10 @@ class JointAdjuster {
         run.correction.place(unknowns_, 3);
         take(3 * run.correction.knots());
         for (std::size_t i = 0; i < run.size(); ++i) run.at.push_back(run.correction.locate(run.time(i)));
+        run.level = run.correction;
+        run.level.place(unknowns_, 1);
+        take(run.level.knots());
+        run.level_known.assign(run.level.knots(), false);
         for (GnssSegment& segment : run.segments) {
             segment.error.place(unknowns_, 3);
             take(3 * segment.error.knots());
@@ -549,7 +575,7 @@ class JointAdjuster {
         const double iron = radians(options_.lasting.hard_iron_sigma_deg);
         system.addRow(kPrior, {{iron_sin_.unknown, 1.0}}, -iron_sin_.value, iron);
         system.addRow(kPrior, {{iron_cos_.unknown, 1.0}}, -iron_cos_.value, iron);
-        for (const RunModel& run : runs_) {
+        for (RunModel& run : runs_) {
             addStart(run, system);
             addTies(run, system);
             addGnss(run, system);
@@ -851,13 +877,9 @@ class JointAdjuster {
 
     void addGyro(const RunModel& run, SparseLeastSquares& system) {
         const double walk = radians(options_.lasting.gyro_walk_deg_per_sqrt_s);
-        // Where the gyro was silent the turn is the compass's.
-        const double bridged = std::sqrt(2.0) * radians(options_.attitude.sigma_heading_deg) / 6.0;
-        std::vector<double> broken(run.turn.knots(), 0.0);
+        std::vector<double> doubt_rad2(run.turn.knots(), 0.0);
         for (std::size_t i = 0; i < run.size(); ++i) {
-            if (run.base_broken[i]) {
-                broken[std::min(run.turn_at[i].knot + 1, run.turn.knots() - 1)] += 1.0;
-            }
+            doubt_rad2[std::min(run.turn_at[i].knot + 1, run.turn.knots() - 1)] += run.base_doubt_rad2[i];
         }
         system.addRow(kPrior, {{run.turn.unknown(0), 1.0}}, -run.turn.knotValue(0), 1.0);
         for (std::size_t k = 1; k < run.turn.knots(); ++k) {
@@ -866,7 +888,7 @@ class JointAdjuster {
                 kGyro,
                 {{run.turn.unknown(k), 1.0}, {run.turn.unknown(k - 1), -1.0}, {run.gyro_bias.unknown, -dt}},
                 run.turn.knotValue(k - 1) - run.turn.knotValue(k) + run.gyro_bias.value * dt,
-                std::hypot(walk * std::sqrt(dt), bridged * std::sqrt(broken[k])));
+                std::sqrt(squared(walk) * dt + doubt_rad2[k]));
         }
         addCompass(run, system);
     }
@@ -874,7 +896,7 @@ class JointAdjuster {
     // Compass against summed gyro, one row for the mean over each knot interval.
     void addCompass(const RunModel& run, SparseLeastSquares& system) {
         constexpr double kSteady_rad = radians(0.15);  // of the mean: what does not average out
-        const double white = radians(options_.attitude.sigma_heading_deg) / 6.0;
+        const double white = compassNoise_rad();
         std::array<double, 2> turn{}, psi{};
         double n = 0.0, sine = 0.0, cosine = 0.0, residual = 0.0;
         std::size_t psi_first = 0;
@@ -935,7 +957,7 @@ class JointAdjuster {
 
     // Height above ground about a knot.
     double aboveGround(const RunModel& run, double time_s) {
-        constexpr double kReach_s = 0.31;
+        constexpr double kReach_s = 0.81;
         const std::vector<double>& times = run.log->time_s;
         scratch_.clear();
         for (auto it = std::lower_bound(times.begin(), times.end(), time_s - kReach_s);
@@ -943,30 +965,38 @@ class JointAdjuster {
             const double above = run.above_ground_m[static_cast<std::size_t>(it - times.begin())];
             if (present(above)) scratch_.push_back(above);
         }
-        if (scratch_.empty()) return kMissing;
-        double sum = 0.0;
-        for (const double x : scratch_) sum += x;
-        return sum / static_cast<double>(scratch_.size());
+        return heightThroughGrass(scratch_);
     }
 
-    void addClimb(const RunModel& run, SparseLeastSquares& system) {
+    // The ground below the walk lies about a level that wanders little, but for steps such as a terrace edge:
+    // a level with noise. Where no range was measured the array itself climbs little.
+    void addClimb(RunModel& run, SparseLeastSquares& system) {
         const JointOptions& o = options_.joint;
-        double above_before = aboveGround(run, run.correction.time(0));
-        for (std::size_t k = 1; k < run.correction.knots(); ++k) {
-            const double above = aboveGround(run, run.correction.time(k));
-            const double dt = run.correction.time(k) - run.correction.time(k - 1);
+        for (std::size_t k = 0; k < run.level.knots(); ++k) {
+            const double above = aboveGround(run, run.level.time(k));
+            const double up = trackAt(run, run.level.time(k)).z();
+            if (present(above) && !run.level_known[k]) run.level.setKnotValue(k, up - above);
+            run.level_known[k] = present(above);
+            if (run.level_known[k]) {
+                system.addRow(kRoughness, {{run.correction.unknown(k, 2), 1.0}, {run.level.unknown(k), -1.0}},
+                              run.level.knotValue(k) + above - up, o.ground_roughness_m);
+            } else {
+                system.addRow(kPrior, {{run.level.unknown(k), 1.0}}, 0.0, 1e3);
+            }
+            if (k == 0) continue;
+            const double dt = run.level.time(k) - run.level.time(k - 1);
             const Eigen::Vector3d step =
-                trackAt(run, run.correction.time(k)) - trackAt(run, run.correction.time(k - 1));
-            const bool ranged = present(above) && present(above_before) && dt <= 3.0 * o.knot_s;
-            const double climb = ranged ? above - above_before : 0.0;
-            const double sigma =
-                ranged
-                    ? std::sqrt(squared(o.ground_climb_m_per_sqrt_m) * step.head<2>().norm() + squared(0.02))
-                    : o.blind_climb_m_per_sqrt_s * std::sqrt(dt);
-            system.addRow(ranged ? kClimb : kBlindClimb,
-                          {{run.correction.unknown(k, 2), 1.0}, {run.correction.unknown(k - 1, 2), -1.0}},
-                          climb - step.z(), sigma);
-            above_before = above;
+                trackAt(run, run.level.time(k)) - trackAt(run, run.level.time(k - 1));
+            if (run.level_known[k] && run.level_known[k - 1]) {
+                const double sigma =
+                    std::sqrt(squared(o.ground_climb_m_per_sqrt_m) * step.head<2>().norm() + squared(0.005));
+                system.addRow(kClimb, {{run.level.unknown(k), 1.0}, {run.level.unknown(k - 1), -1.0}},
+                              run.level.knotValue(k - 1) - run.level.knotValue(k), sigma);
+            } else {
+                system.addRow(kBlindClimb,
+                              {{run.correction.unknown(k, 2), 1.0}, {run.correction.unknown(k - 1, 2), -1.0}},
+                              -step.z(), o.blind_climb_m_per_sqrt_s * std::sqrt(dt));
+            }
         }
     }
 
@@ -1014,7 +1044,10 @@ class JointAdjuster {
         const double uneven = slope.norm() / (slope.norm() + o.pair_even_slope);
         const double sigma =
             o.pair_sigma_m + uneven * (o.pair_uneven_m + o.pair_apart_per_m * std::min(apart_m2, 4.0));
-        return std::sqrt((squared(sigma) + squared(0.5 * roughness_m)) / o.pair_weight);
+        static const double extra = getenv("EXTRA") ? atof(getenv("EXTRA")) : 0.0;
+        return std::sqrt(
+            (squared(sigma) + squared(0.5 * roughness_m) + extra * slope.squaredNorm() * apart_m2) /
+            o.pair_weight);
     }
 
     double planVariance(std::size_t run, std::size_t epoch) const {
@@ -1024,8 +1057,9 @@ class JointAdjuster {
 
     void ground(const RunModel& run, std::size_t epoch, const Eigen::Vector2d& slope, double sign) {
         position(run, epoch, 2, sign);
-        position(run, epoch, 0, -sign * slope.x());
-        position(run, epoch, 1, -sign * slope.y());
+        static const double share = getenv("PLAN") ? atof(getenv("PLAN")) : 1.0;
+        position(run, epoch, 0, -sign * share * slope.x());
+        position(run, epoch, 1, -sign * share * slope.y());
     }
 
     void addPairs(SparseLeastSquares& system) {
@@ -1072,6 +1106,7 @@ class JointAdjuster {
                     run.track_m[i][a] += here + at.fraction * (next - here);
                 }
             }
+            run.level.take(solution);
             for (GnssSegment& segment : run.segments) segment.error.take(solution);
             if (run.has_barometer) {
                 run.drift.take(solution);

@@ -142,6 +142,9 @@ std::vector<Parameter> fusionParameters() {
                TERRAWALK_FIELD(fusion.stands.start_s)),
         number("fusion.stands.target_s", 0.2, 600, "still seconds at a target mark",
                TERRAWALK_FIELD(fusion.stands.target_s)),
+        flag("fusion.stands.tie_fixed_targets",
+             "targets of fixed-point runs hold the estimator; false: they only show its error",
+             TERRAWALK_FIELD(fusion.stands.tie_fixed_targets)),
         number("fusion.unscented.alpha", 0.0001, 1, "spread of the sigma points; used by the yaw row only",
                TERRAWALK_FIELD(fusion.unscented.alpha)),
         number("fusion.unscented.beta", 0, 10, "weight of the centre point, 2 for a Gaussian",
@@ -464,8 +467,10 @@ std::vector<Parameter> surfaceParameters() {
                TERRAWALK_FIELD(fusion.joint.pair_weight)),
         number("fusion.joint.walk_mps_per_sqrt_s", 0.01, 100, "random walk of the horizontal velocity",
                TERRAWALK_FIELD(fusion.joint.walk_mps_per_sqrt_s)),
+        number("fusion.joint.ground_roughness_m", 0.001, 10, "of the ground below the walk about its level",
+               TERRAWALK_FIELD(fusion.joint.ground_roughness_m)),
         number("fusion.joint.ground_climb_m_per_sqrt_m", 0.001, 10,
-               "by which the ground below the walk wanders",
+               "by which that level wanders",
                TERRAWALK_FIELD(fusion.joint.ground_climb_m_per_sqrt_m)),
         number("fusion.joint.blind_climb_m_per_sqrt_s", 0.001, 10,
                "by which the array climbs where no range was measured",
@@ -474,7 +479,7 @@ std::vector<Parameter> surfaceParameters() {
 }
 
 // An option that is added without a parameter could be neither set nor reported.
-static_assert(sizeof(FusionOptions) == 936, "add the new option to fusionParameters()");
+static_assert(sizeof(FusionOptions) == 952, "add the new option to fusionParameters()");
 static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
 static_assert(sizeof(SurfaceOptions) == 32, "add the new option to surfaceParameters()");
 
