@@ -52,7 +52,7 @@ std::vector<RowGroup> rowGroups(bool robust) {
     const auto set = [&](std::size_t g, std::string name, Loss loss, double tuning, bool adapt,
                          double least = 0.2, double greatest = 5.0) {
         groups[g] = {
-            std::move(name), robust ? loss : Loss::Square, tuning, adapt, least, greatest, 20.0, 1.0};
+            std::move(name), robust ? loss : Loss::Square, tuning, false, adapt, least, greatest, 20.0, 1.0};
     };
     set(kPrior, "prior", Loss::Square, 3.0, false);
     set(kTieH, "mark ties, plan", Loss::Square, 3.0, false);
@@ -74,7 +74,8 @@ std::vector<RowGroup> rowGroups(bool robust) {
     set(kGyro, "gyro", Loss::Huber, 3.0, true, 0.2, 20.0);
     set(kHeading, "compass noise", Loss::Cauchy, 3.0, true, 0.2, 10.0);
     set(kWalk, "walk", Loss::Square, 2.0, false);
-    set(kClimb, "ground climb", Loss::Cauchy, 2.0, true, 0.2, 6.0);
+    set(kClimb, "ground climb", Loss::Cauchy, 2.0, true, 0.5, 4.0);
+    groups[kClimb].by_median = true;
     set(kRoughness, "ground roughness", Loss::Huber, 2.0, true, 0.2, 6.0);
     set(kBlindClimb, "climb", Loss::Huber, 2.0, false);
     set(kPair, "crossovers", Loss::Cauchy, 3.0, true, 0.9, 5.0);
