@@ -198,10 +198,11 @@ struct JointOptions {
     double pair_even_slope = 0.2;
     double pair_uneven_m = 0.07;
     double pair_apart_per_m = 0.35;
-    double pair_weight = 0.5;                 ///< neighbouring pairs share their points
+    double pair_plan_share = 0.5;             ///< of the slope that turns errors of the plan into height
+    double pair_weight = 0.4;                 ///< neighbouring pairs share their points
     double walk_mps_per_sqrt_s = 0.6;         ///< random walk of the horizontal velocity
     double ground_roughness_m = 0.05;         ///< of the ground below the walk about its level
-    double ground_climb_m_per_sqrt_m = 0.03;  ///< by which that level wanders
+    double ground_climb_m_per_sqrt_m = 0.06;  ///< by which that level wanders
     double blind_climb_m_per_sqrt_s = 0.27;   ///< the same of the array where no range was measured
 };
 

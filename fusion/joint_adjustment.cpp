@@ -1045,10 +1045,8 @@ class JointAdjuster {
         const double uneven = slope.norm() / (slope.norm() + o.pair_even_slope);
         const double sigma =
             o.pair_sigma_m + uneven * (o.pair_uneven_m + o.pair_apart_per_m * std::min(apart_m2, 4.0));
-        static const double extra = getenv("EXTRA") ? atof(getenv("EXTRA")) : 0.0;
-        return std::sqrt(
-            (squared(sigma) + squared(0.5 * roughness_m) + extra * slope.squaredNorm() * apart_m2) /
-            o.pair_weight);
+        return std::sqrt((squared(sigma) + squared(0.5 * roughness_m) + slope.squaredNorm() * apart_m2) /
+                         o.pair_weight);
     }
 
     double planVariance(std::size_t run, std::size_t epoch) const {
@@ -1058,7 +1056,8 @@ class JointAdjuster {
 
     void ground(const RunModel& run, std::size_t epoch, const Eigen::Vector2d& slope, double sign) {
         position(run, epoch, 2, sign);
-        static const double share = getenv("PLAN") ? atof(getenv("PLAN")) : 1.0;
+        // Half of what a slope tells of the plan: the ground is a plane only near by.
+        const double share = options_.joint.pair_plan_share;
         position(run, epoch, 0, -sign * share * slope.x());
         position(run, epoch, 1, -sign * share * slope.y());
     }

@@ -463,6 +463,9 @@ std::vector<Parameter> surfaceParameters() {
         number("fusion.joint.pair_apart_per_m", 0, 10,
                "added to that, times the squared distance of the passes",
                TERRAWALK_FIELD(fusion.joint.pair_apart_per_m)),
+        number("fusion.joint.pair_plan_share", 0, 1,
+               "of the slope that turns errors of the plan into height",
+               TERRAWALK_FIELD(fusion.joint.pair_plan_share)),
         number("fusion.joint.pair_weight", 0.01, 1, "neighbouring crossovers share points",
                TERRAWALK_FIELD(fusion.joint.pair_weight)),
         number("fusion.joint.walk_mps_per_sqrt_s", 0.01, 100, "random walk of the horizontal velocity",
@@ -479,7 +482,7 @@ std::vector<Parameter> surfaceParameters() {
 }
 
 // An option that is added without a parameter could be neither set nor reported.
-static_assert(sizeof(FusionOptions) == 952, "add the new option to fusionParameters()");
+static_assert(sizeof(FusionOptions) == 960, "add the new option to fusionParameters()");
 static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
 static_assert(sizeof(SurfaceOptions) == 32, "add the new option to surfaceParameters()");
 
