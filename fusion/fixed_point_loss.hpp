@@ -86,6 +86,9 @@ class FixedPointLoss {
   private:
     struct Prepared;
     FixedPointLoss(std::shared_ptr<const Prepared> prepared, std::vector<std::size_t> chosen);
+    // Of each candidate and run: n x runs.
+    void errors(std::span<const double> candidates, std::size_t dimensions,
+                std::span<SquaredError> errors) const;
 
     std::shared_ptr<const Prepared> prepared_;
     std::vector<std::size_t> chosen_;  // of the prepared runs, ascending
