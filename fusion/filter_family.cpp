@@ -76,25 +76,34 @@ EpochRows rowsOf(const MeasurementEpoch& epoch, RowSet used) {
 /// Sums nu' S^-1 nu for each sensor.
 class ConsistencySums {
   public:
+    explicit ConsistencySums(const RowSensors& sensors) : sensors_(sensors) {}
     // Of rows that one update takes together.
     void add(const EpochRows& rows, const RowVector& innovation, const RowMatrix& S) {
         for (std::size_t from = 0; from < rows.rows.size();) {
-            const Sensor sensor = kSensorOfRow[rows.rows[from]];
+            const Sensor sensor = sensors_[rows.rows[from]];
             std::size_t to = from + 1;
-            while (to < rows.rows.size() && kSensorOfRow[rows.rows[to]] == sensor) ++to;
+            while (to < rows.rows.size() && sensors_[rows.rows[to]] == sensor) ++to;
             const auto at = static_cast<Eigen::Index>(from);
             const auto m = static_cast<Eigen::Index>(to - from);
             const RowMatrix own = S.block(at, at, m, m);
             const RowVector nu = innovation.segment(at, m);
-            add(sensor, nu.dot(own.ldlt().solve(nu)), static_cast<double>(m), true);
+            Sum& sum = sums_[static_cast<std::size_t>(sensor)];
+            sum.nis += nu.dot(own.ldlt().solve(nu));
+            sum.dof += static_cast<double>(m);
+            ++sum.n;
             from = to;
         }
     }
-    void add(Sensor sensor, double nis, double dof, bool first_of_reading) {
-        Sum& sum = sums_[static_cast<std::size_t>(sensor)];
+    // Of a row that is taken by itself, after `taken` of the same epoch.
+    void add(std::size_t row, RowSet taken, double nis) {
+        Sum& sum = sums_[static_cast<std::size_t>(sensors_[row])];
         sum.nis += nis;
-        sum.dof += dof;
-        if (first_of_reading) ++sum.n;
+        sum.dof += 1.0;
+        bool first = true;
+        for (std::size_t other = 0; other < kRowCount; ++other) {
+            if (sensors_[other] == sensors_[row] && (taken & rowBit(other)) != 0) first = false;
+        }
+        if (first) ++sum.n;
     }
     std::vector<SensorConsistency> means() const {
         std::vector<SensorConsistency> means;
@@ -113,6 +122,7 @@ class ConsistencySums {
         double nis = 0.0;
         double dof = 0.0;
     };
+    RowSensors sensors_;
     std::array<Sum, kSensorCount> sums_{};
 };
 
@@ -384,14 +394,7 @@ class AdaptiveFilter {
         const auto factor = noise_[row].adapted((squared(nu) - others) / sensor_variance, options_.adaptive);
         if (!factor) return;
         linear.variance += (*factor - 1.0) * sensor_variance;
-        const Sensor sensor = kSensorOfRow[row];
-        const bool first =
-            used == 0 || std::none_of(kSensorOfRow.begin(), kSensorOfRow.end(), [&](const Sensor& s) {
-                const auto other = static_cast<std::size_t>(&s - kSensorOfRow.data());
-                return s == sensor && (used & rowBit(other)) != 0;
-            });
-        consistency.add(sensor, squared(nu) / (predictedVariance(state_, linear) + linear.variance), 1.0,
-                        first);
+        consistency.add(row, used, squared(nu) / (predictedVariance(state_, linear) + linear.variance));
         state_ = updated(state_, linear);
         used = static_cast<RowSet>(used | rowBit(row));
     }
@@ -405,7 +408,7 @@ template <class Filter>
 Result<FilteredRun> filteredBy(const MeasuredRun& run, const AukfOptions& options,
                                const std::stop_token& stop) {
     Filter filter(run.start, options);
-    ConsistencySums consistency;
+    ConsistencySums consistency(run.sensors);
     FilteredRun filtered;
     filtered.states.reserve(run.epochs.size());
     filtered.used.reserve(run.epochs.size());

@@ -10,6 +10,11 @@ enum class FusionMethod {
     Aukf,  ///< the method of paper 000 as it is: no gate, no smoother; `AukfOptions` name the filter
 };
 
+/// Whether a method ties the track to the control marks that a run stands on after its start.
+[[nodiscard]] constexpr bool tiesToMarks(FusionMethod method) {
+    return method != FusionMethod::Raw && method != FusionMethod::Aukf;
+}
+
 /// In which epochs the GNSS height enters the filter. Without a barometer in use, and while it is silent for
 /// long, `Rtk` gives way to `Always`, with a note.
 enum class GnssHeightUse {

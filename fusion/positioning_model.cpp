@@ -172,7 +172,13 @@ MeasuredRun measuredRun(const Survey& survey, const Run& run, const FusionOption
                         const std::vector<EpochAttitude>& attitudes, const RunReference& reference,
                         SensorLedger& ledger) {
     LogMeasurer measurer(survey, run, options, attitudes, reference, ledger);
-    MeasuredRun measured{run.id, startOf(run, options, reference), {}};
+    MeasuredRun measured{.run_id = run.id, .start = startOf(run, options, reference)};
+    Sensor& height = measured.sensors[static_cast<std::size_t>(MeasurementRow::BarometerUp)];
+    if (!reference.has_height) {
+        height = Sensor::HeightAssumption;
+    } else if (!reference.barometer_zero_m) {
+        height = Sensor::GnssHeight;
+    }
     measured.epochs.reserve(run.log.size());
     for (std::size_t i = 0; i < run.log.size(); ++i) measured.epochs.push_back(measurer.measure(i));
     return measured;

@@ -37,10 +37,11 @@ inline constexpr std::size_t kRowCount = 9;
 inline constexpr int kNoState = -1;
 inline constexpr std::array<int, kRowCount> kStateOfRow{3, 4, 5, 0, 1, kNoState, 6, 7, 8};
 
-inline constexpr std::array<Sensor, kRowCount> kSensorOfRow{
-    Sensor::GnssPosition,  Sensor::GnssPosition,  Sensor::Barometer,
-    Sensor::OpticalFlow,   Sensor::OpticalFlow,   Sensor::Heading,
-    Sensor::Accelerometer, Sensor::Accelerometer, Sensor::Accelerometer};
+/// What gives each row. GNSS height or an assumption may stand in for the barometer.
+using RowSensors = std::array<Sensor, kRowCount>;
+inline constexpr RowSensors kRowSensors{Sensor::GnssPosition,  Sensor::GnssPosition,  Sensor::Barometer,
+                                        Sensor::OpticalFlow,   Sensor::OpticalFlow,   Sensor::Heading,
+                                        Sensor::Accelerometer, Sensor::Accelerometer, Sensor::Accelerometer};
 
 /// Rows as bits of a number.
 using RowSet = std::uint16_t;
@@ -69,6 +70,7 @@ struct MeasurementEpoch {
 /// A run as measured.
 struct MeasuredRun {
     std::string run_id;
+    RowSensors sensors = kRowSensors;
     StateEstimate start;  ///< of the first epoch before its measurements; the covariance is diagonal
     std::vector<MeasurementEpoch> epochs;
 };
