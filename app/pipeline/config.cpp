@@ -398,7 +398,7 @@ std::vector<Parameter> aukfParameters() {
         number("fusion.aukf.yaw_row.mount_offset_deg", -180, 180,
                "yaw of the array less course of the walk, counter-clockwise",
                TERRAWALK_FIELD(fusion.aukf.yaw_row.mount_offset_deg)),
-        number("fusion.aukf.adaptive.forgetting", 0.5, 0.999999,
+        number("fusion.aukf.adaptive.forgetting", 0, 1,
                "filter adaptive-ukf: b, the noise remembers 1 / (1 - b) readings",
                TERRAWALK_FIELD(fusion.aukf.adaptive.forgetting)),
         number("fusion.aukf.adaptive.least_factor", 0.0001, 1,
