@@ -33,6 +33,8 @@ class RandomNumbers {
   public:
     explicit RandomNumbers(std::initializer_list<std::uint64_t> key) : engine_(scramble(key)) {}
 
+    /// 64 of them, each as likely 0 as 1.
+    std::uint64_t bits() { return engine_(); }
     /// 0 <= value < 1.
     double uniform() { return unitInterval(engine_()); }
     double uniform(double low, double high) { return low + (high - low) * uniform(); }

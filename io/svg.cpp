@@ -126,4 +126,13 @@ std::string Svg::str() const {
         h, w, escapedMarkup(label_), body_);
 }
 
+std::string Svg::file(std::string_view css) const {
+    const std::string w = pixels(width_), h = pixels(height_);
+    return fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n"
+        "<title>{2}</title>\n<style>{3}</style>\n{4}</svg>\n",
+        w, h, escapedMarkup(label_), css, body_);
+}
+
 }  // namespace terrawalk

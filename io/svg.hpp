@@ -45,6 +45,9 @@ class Svg {
 
     /// The element, no wider on the page than it was drawn.
     [[nodiscard]] std::string str() const;
+    /// A stand-alone SVG file, which brings its own style.
+    /// @param css  holds none of < and &
+    [[nodiscard]] std::string file(std::string_view css) const;
 
   private:
     void element(std::string_view tag, std::string_view attributes, std::string_view css,

@@ -13,6 +13,7 @@
 #include "app/cli/interrupt.hpp"
 #include "app/cli/simulate_options.hpp"
 #include "app/cli/terminal_progress.hpp"
+#include "app/pipeline/experiment.hpp"
 #include "app/pipeline/jobs.hpp"
 #include "app/pipeline/json_output.hpp"
 #include "app/pipeline/version.hpp"
@@ -57,6 +58,13 @@ struct ProcessArguments {
 struct SimulateArguments {
     fs::path output;
     SimulationOptions options;
+};
+
+struct ExperimentArguments {
+    std::string name;
+    fs::path output = "experiments";
+    bool list = false;
+    ExperimentOptions options;
 };
 
 // Without fmt: a closed standard error must not turn into an exception.
@@ -171,6 +179,26 @@ int runSimulate(const SimulateArguments& arguments, const Common& common, Termin
     return 0;
 }
 
+int runExperiments(const ExperimentArguments& arguments, const Common& common, TerminalProgress& progress,
+                   const std::stop_token& stop) {
+    if (arguments.list) {
+        for (const Experiment& experiment : experiments())
+            fmt::print("{:<12}{}\n", experiment.name, experiment.about);
+        return 0;
+    }
+    const auto report = runExperiment(arguments.name, arguments.options, arguments.output, progress, stop);
+    if (!report) return fail(report.error(), common, progress);
+    progress.clear();
+    const ExperimentFiles files = experimentFiles(arguments.name, arguments.output);
+    if (common.json) {
+        fmt::print("{}", toJson(*report, arguments.options, files));
+    } else if (!common.quiet) {
+        fmt::print("{}\nWritten to {} and {}\n", toText(*report, arguments.options),
+                   printable(files.csv.string()), printable(files.svg.string()));
+    }
+    return 0;
+}
+
 int runConfigPrint(const ProcessArguments& arguments, const Common& common, TerminalProgress& progress) {
     const auto config = configuration(arguments);
     if (!config) return fail(config.error(), common, progress);
@@ -229,6 +257,22 @@ int run(int argc, char** argv) {
     addSimulationOptions(*simulate_command, simulate.options);
     addCommon(*simulate_command, common);
 
+    ExperimentArguments experiment;
+    CLI::App* experiment_command = app.add_subcommand("experiment", "Repeat an experiment of the papers");
+    CLI::Option* experiment_name = experiment_command->add_option("name", experiment.name, "Which one");
+    experiment_command->add_flag("--list", experiment.list, "Show all experiments")
+        ->excludes(experiment_name);
+    experiment_command
+        ->add_option("survey", experiment.options.survey,
+                     "Survey to work on, for experiments that take one; a simulated one where it is left out")
+        ->excludes("--list");
+    experiment_command->add_flag("--quick", experiment.options.quick, "A small form, done in seconds");
+    experiment_command->add_option("-o,--output", experiment.output, "Folder for NAME.csv and NAME.svg")
+        ->capture_default_str();
+    experiment_command->add_option("--seed", experiment.options.seed, "Of all random numbers")
+        ->capture_default_str();
+    addCommon(*experiment_command, common);
+
     CLI::App* config_command = app.add_subcommand("config", "Show and check parameters");
     config_command->require_subcommand(1);
     CLI::App* print_command = config_command->add_subcommand("print", "Print all parameters as JSON");
@@ -253,6 +297,7 @@ int run(int argc, char** argv) {
     if (process_command->parsed()) return runProcess(process, common, progress, interrupt.token());
     if (inspect_command->parsed()) return runInspect(inspected, common, progress, interrupt.token());
     if (simulate_command->parsed()) return runSimulate(simulate, common, progress, interrupt.token());
+    if (experiment_command->parsed()) return runExperiments(experiment, common, progress, interrupt.token());
     if (print_command->parsed()) return runConfigPrint(process, common, progress);
     if (describe_command->parsed()) return runConfigDescribe(common);
     return runConfigValidate(validated, common, progress);

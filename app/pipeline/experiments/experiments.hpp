@@ -1,0 +1,19 @@
+#pragma once
+
+#include "app/pipeline/experiment.hpp"
+
+namespace terrawalk {
+
+// The experiments, one file each. To add one: its file, its line here, its line in `experiments()`.
+
+[[nodiscard]] Result<ExperimentReport> runFig7(const ExperimentOptions& options, Progress& progress,
+                                               std::stop_token stop);
+[[nodiscard]] Result<ExperimentReport> runFig8(const ExperimentOptions& options, Progress& progress,
+                                               std::stop_token stop);
+
+[[nodiscard]] Result<ExperimentReport> runAccuracy(const ExperimentOptions& options, Progress& progress,
+                                                   std::stop_token stop);
+[[nodiscard]] Result<ExperimentReport> runOutage(const ExperimentOptions& options, Progress& progress,
+                                                 std::stop_token stop);
+
+}  // namespace terrawalk
