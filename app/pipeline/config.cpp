@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -126,6 +127,14 @@ Parameter choice(std::string key, std::vector<std::pair<std::string, Enum>> name
     return p;
 }
 
+template <class Enum, std::size_t n>
+std::vector<std::pair<std::string, Enum>> named(
+    const std::array<std::pair<Enum, std::string_view>, n>& names) {
+    std::vector<std::pair<std::string, Enum>> list;
+    for (const auto& [value, text] : names) list.emplace_back(text, value);
+    return list;
+}
+
 #define TERRAWALK_FIELD(path)              \
     [](PipelineConfig & config) -> auto& { \
         return config.path;                \
@@ -134,8 +143,7 @@ Parameter choice(std::string key, std::vector<std::pair<std::string, Enum>> name
 std::vector<Parameter> fusionParameters() {
     return {
         choice<FusionMethod>(
-            "fusion.method",
-            {{"raw", FusionMethod::Raw}, {"ukf", FusionMethod::Ukf}, {"aukf", FusionMethod::Aukf}},
+            "fusion.method", named(kFusionMethodNames),
             "raw: sensors as they are; ukf: 9-state unscented Kalman filter with gate and smoother; aukf: "
             "the "
             "method of paper 000 as it is",
@@ -345,12 +353,7 @@ std::vector<Parameter> fusionParameters() {
 
 std::vector<Parameter> aukfParameters() {
     return {
-        choice<FilterKind>("fusion.aukf.filter",
-                           {{"ekf", FilterKind::Ekf},
-                            {"ckf", FilterKind::Ckf},
-                            {"ukf", FilterKind::Ukf},
-                            {"square-root-ukf", FilterKind::SquareRootUkf},
-                            {"adaptive-ukf", FilterKind::AdaptiveUkf}},
+        choice<FilterKind>("fusion.aukf.filter", named(kFilterNames),
                            "which filter method aukf runs on the model of paper 000",
                            TERRAWALK_FIELD(fusion.aukf.filter)),
         number("fusion.aukf.noise.position_e_m2", 0, 1000,
