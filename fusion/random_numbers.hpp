@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <random>
@@ -37,6 +38,8 @@ class RandomNumbers {
     std::uint64_t bits() { return engine_(); }
     /// 0 <= value < 1.
     double uniform() { return unitInterval(engine_()); }
+    /// One of the whole numbers below `n`, which is positive and below 2^32.
+    std::size_t index(std::size_t n) { return static_cast<std::size_t>(((bits() >> 32U) * n) >> 32U); }
     double uniform(double low, double high) { return low + (high - low) * uniform(); }
     bool chance(double probability) { return uniform() < probability; }
     /// Mean 0, variance 1. Source: Marsaglia's polar method.

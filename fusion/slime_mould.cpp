@@ -186,7 +186,7 @@ bool printedTrials(const SearchBox& box, Population& population, RandomNumbers& 
     std::vector<double> trials(population.x);
     for (std::size_t i = 0; i < n; ++i) {
         const ThreeIndices k = threeOthers(random, n, i);
-        const auto forced = static_cast<std::size_t>(random.uniform() * static_cast<double>(d));
+        const std::size_t forced = random.index(d);
         for (std::size_t j = 0; j < d; ++j) {
             if (!random.chance(rates[i]) && j != forced) continue;
             const double mutated =
@@ -205,6 +205,13 @@ bool printedTrials(const SearchBox& box, Population& population, RandomNumbers& 
 
 // ------------------------------------------------------------------------------------ the form to use
 
+/// What an individual crosses over with; it passes on what brought a gain.
+struct Control {
+    double scale = 0.5;        // F
+    double rate = 0.9;         // CR
+    bool exponential = false;  // a run of neighbouring dimensions instead of each by itself
+};
+
 /// The improved algorithm between two generations.
 class ImprovedSlimeMould {
   public:
@@ -215,8 +222,9 @@ class ImprovedSlimeMould {
           evaluator_(evaluator),
           largest_(population),
           population_(goodStart(box, population, evaluator)),
-          scales_(population_.size(), kFirstScale),
-          rates_(population_.size(), kFirstRate) {}
+          controls_(population_.size()) {
+        for (Control& control : controls_) control.exponential = random_.chance(0.5);
+    }
 
     void run() {
         while (!evaluator_.isOver()) {
@@ -229,10 +237,8 @@ class ImprovedSlimeMould {
   private:
     static constexpr std::uint64_t kStream = 1;
     static constexpr std::size_t kSmallest = 10;
-    static constexpr double kFirstScale = 0.5;
-    static constexpr double kFirstRate = 0.9;
     static constexpr double kRenewal = 0.1;
-    static constexpr double kSlimeMouldShare = 0.2;
+    static constexpr double kSlimeMouldShare = 0.1;
 
     /// Lets the worst leave; afterwards the population stands in the order of its losses.
     void shrink() {
@@ -245,18 +251,15 @@ class ImprovedSlimeMould {
         Population kept{.d = population_.d, .x = {}, .losses = {}};
         kept.x.resize(order_.size() * kept.d);
         kept.losses.resize(order_.size());
-        std::vector<double> scales(order_.size());
-        std::vector<double> rates(order_.size());
+        std::vector<Control> controls(order_.size());
         for (std::size_t rank = 0; rank < order_.size(); ++rank) {
             const std::size_t i = order_[rank];
             std::copy_n(population_.at(i), kept.d, kept.at(rank));
             kept.losses[rank] = population_.losses[i];
-            scales[rank] = scales_[i];
-            rates[rank] = rates_[i];
+            controls[rank] = controls_[i];
         }
         population_ = std::move(kept);
-        scales_ = std::move(scales);
-        rates_ = std::move(rates);
+        controls_ = std::move(controls);
     }
 
     void makeTrials() {
@@ -265,12 +268,13 @@ class ImprovedSlimeMould {
         weights_ = foodWeights(population_, order_);
         reach_ = reach(shareSpent(evaluator_));
         trials_.resize(n * population_.d);
-        trial_scales_ = scales_;
-        trial_rates_ = rates_;
+        trial_controls_ = controls_;
         for (std::size_t i = 0; i < n; ++i) {
-            if (random_.chance(kRenewal)) trial_scales_[i] = 0.1 + 0.9 * random_.uniform();
-            if (random_.chance(kRenewal)) trial_rates_[i] = random_.uniform();
-            chooseCrossed(trial_rates_[i]);
+            Control& control = trial_controls_[i];
+            if (random_.chance(kRenewal)) control.scale = 0.1 + 0.9 * random_.uniform();
+            if (random_.chance(kRenewal)) control.rate = random_.uniform();
+            if (random_.chance(kRenewal)) control.exponential = random_.chance(0.5);
+            chooseCrossed(control);
             double* const trial = trials_.data() + i * population_.d;
             if (!random_.chance(kSlimeMouldShare)) {
                 differentialTrial(i, trial);
@@ -282,17 +286,25 @@ class ImprovedSlimeMould {
         }
     }
 
-    /// Binomial crossover: which dimensions come from the donor; one at least.
-    void chooseCrossed(double rate) {
+    /// Which dimensions come from the donor; one at least.
+    void chooseCrossed(const Control& control) {
         const std::size_t d = population_.d;
-        crossed_.resize(d + 1);
-        const auto threshold = static_cast<std::uint64_t>(rate * 0x1.0p32);
-        for (std::size_t j = 0; j < d; j += 2) {
-            const std::uint64_t bits = random_.bits();
-            crossed_[j] = (bits & 0xffffffffU) < threshold;
-            crossed_[j + 1] = (bits >> 32U) < threshold;
+        crossed_.assign(d + 1, 0);
+        std::size_t j = random_.index(d);
+        crossed_[j] = 1;
+        if (control.exponential) {
+            for (std::size_t length = 1; length < d && random_.chance(control.rate); ++length) {
+                j = j + 1 == d ? 0 : j + 1;
+                crossed_[j] = 1;
+            }
+            return;
         }
-        crossed_[static_cast<std::size_t>(random_.uniform() * static_cast<double>(d))] = 1;
+        const auto threshold = static_cast<std::uint64_t>(control.rate * 0x1.0p32);
+        for (std::size_t k = 0; k < d; k += 2) {
+            const std::uint64_t bits = random_.bits();
+            crossed_[k] |= static_cast<std::uint8_t>((bits & 0xffffffffU) < threshold);
+            crossed_[k + 1] |= static_cast<std::uint8_t>((bits >> 32U) < threshold);
+        }
     }
 
     void differentialTrial(std::size_t i, double* trial) {
@@ -301,7 +313,7 @@ class ImprovedSlimeMould {
         const double* const a = population_.at(k.a);
         const double* const b = population_.at(k.b);
         const double* const c = population_.at(k.c);
-        const double scale = trial_scales_[i];
+        const double scale = trial_controls_[i].scale;
         for (std::size_t j = 0; j < population_.d; ++j) {
             const double donor = clamped(a[j] + scale * (b[j] - c[j]), box_.lower[j], box_.upper[j]);
             trial[j] = crossed_[j] != 0 ? donor : x[j];
@@ -347,10 +359,7 @@ class ImprovedSlimeMould {
         const EvaluatedLosses found = evaluator_.evaluate(trials_);
         for (std::size_t i = 0; i < found.sums.size(); ++i) {
             if (found.sums[i] > population_.losses[i]) continue;
-            if (found.sums[i] < population_.losses[i]) {
-                scales_[i] = trial_scales_[i];
-                rates_[i] = trial_rates_[i];
-            }
+            if (found.sums[i] < population_.losses[i]) controls_[i] = trial_controls_[i];
             std::copy_n(trials_.data() + i * population_.d, population_.d, population_.at(i));
             population_.losses[i] = found.sums[i];
         }
@@ -361,10 +370,8 @@ class ImprovedSlimeMould {
     CandidateEvaluator& evaluator_;
     std::size_t largest_;
     Population population_;
-    std::vector<double> scales_;  // F
-    std::vector<double> rates_;   // CR
-    std::vector<double> trial_scales_;
-    std::vector<double> trial_rates_;
+    std::vector<Control> controls_;
+    std::vector<Control> trial_controls_;
     std::vector<double> trials_;  // n x d
     std::vector<double> weights_;
     std::vector<std::size_t> order_;
