@@ -41,7 +41,7 @@ ThreeIndices threeIndices(std::uint64_t bits, std::size_t n) {
 }
 
 /// Three different ones that are not i; n > 3.
-ThreeIndices threeOthers(RandomNumbers& random, std::size_t n, std::size_t i) {
+ThreeIndices threeOthers(QuickRandomNumbers& random, std::size_t n, std::size_t i) {
     for (;;) {
         const ThreeIndices k = threeIndices(random.bits(), n);
         if (k.a != i && k.b != i && k.c != i && k.a != k.b && k.a != k.c && k.b != k.c) return k;
@@ -67,7 +67,7 @@ double foodWeight(double loss, double best, double worst, bool better_half) {
     return better_half ? scent : -scent;
 }
 
-Population randomStart(const SearchBox& box, std::size_t n, RandomNumbers& random,
+Population randomStart(const SearchBox& box, std::size_t n, QuickRandomNumbers& random,
                        CandidateEvaluator& evaluator) {
     Population start{.d = box.dimensions(), .x = {}, .losses = {}};
     start.x.resize(n * start.d);
@@ -120,7 +120,7 @@ Reach reach(double share) {
 // ------------------------------------------------------------------------------------ as published
 
 /// Moves everybody by eq 21 and evaluates them. False when the search is over.
-bool publishedMove(const SearchBox& box, Population& population, RandomNumbers& random,
+bool publishedMove(const SearchBox& box, Population& population, QuickRandomNumbers& random,
                    CandidateEvaluator& evaluator) {
     const std::size_t n = population.size();
     const std::size_t d = population.d;
@@ -176,7 +176,7 @@ std::vector<double> crossoverRates(const std::vector<double>& losses) {
 }
 
 /// Eqs 23-26: a trial vector for everybody, kept where it is better. False when the search is over.
-bool printedTrials(const SearchBox& box, Population& population, RandomNumbers& random,
+bool printedTrials(const SearchBox& box, Population& population, QuickRandomNumbers& random,
                    CandidateEvaluator& evaluator) {
     constexpr double kScale = 0.5;
     const std::size_t n = population.size();
@@ -365,7 +365,7 @@ class ImprovedSlimeMould {
     }
 
     const SearchBox& box_;
-    RandomNumbers random_;
+    QuickRandomNumbers random_;
     CandidateEvaluator& evaluator_;
     std::size_t largest_;
     Population population_;  // in the order of losses while trials are made
@@ -383,7 +383,7 @@ class ImprovedSlimeMould {
 
 void slimeMould(const SearchBox& box, std::size_t population, std::uint64_t seed,
                 CandidateEvaluator& evaluator) {
-    RandomNumbers random({seed, 3});
+    QuickRandomNumbers random({seed, 3});
     Population slime = randomStart(box, population, random, evaluator);
     while (!evaluator.isOver() && publishedMove(box, slime, random, evaluator)) {
     }
@@ -391,7 +391,7 @@ void slimeMould(const SearchBox& box, std::size_t population, std::uint64_t seed
 
 void printedSlimeMould(const SearchBox& box, std::size_t population, std::uint64_t seed,
                        CandidateEvaluator& evaluator) {
-    RandomNumbers random({seed, 2});
+    QuickRandomNumbers random({seed, 2});
     Population slime = goodStart(box, population, evaluator);
     while (!evaluator.isOver() && publishedMove(box, slime, random, evaluator) &&
            printedTrials(box, slime, random, evaluator)) {
