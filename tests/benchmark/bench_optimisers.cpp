@@ -240,7 +240,7 @@ int main(int argc, char** argv) {
                arguments.seeds, arguments.shift_seed);
     const auto table = medians(arguments);
     printMedians(arguments, table);
-    fmt::print("\n");
+    fmt::print("\nvalues below {:g} count as equal\n", kFloor);
     printComparisons(arguments, table);
     printOverheads(arguments);
 }
