@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "fusion/aukf_trajectory.hpp"
 #include "fusion/raw_trajectory.hpp"
 #include "fusion/rts_smoother.hpp"
 #include "fusion/run_reference.hpp"
@@ -371,9 +372,10 @@ Result<FusedRun> fuseRun(const Survey& survey, const Run& run, const FusionOptio
     const std::vector<EpochAttitude> attitudes = epochAttitudes(run.log, options.attitude, notes);
     const auto reference = runReference(survey, run, options, attitudes, notes);
     if (!reference) return tl::unexpected<Error>(reference.error());
-    auto fused = options.method == FusionMethod::Raw
-                     ? rawTrajectory(survey, run, options, attitudes, *reference, progress, stop)
-                     : filteredRun(survey, run, options, attitudes, *reference, progress, stop);
+    const auto fuse = options.method == FusionMethod::Raw    ? rawTrajectory
+                      : options.method == FusionMethod::Aukf ? aukfTrajectory
+                                                             : filteredRun;
+    auto fused = fuse(survey, run, options, attitudes, *reference, progress, stop);
     if (!fused) return fused;
     notes.details.insert(notes.details.end(), fused->notes.details.begin(), fused->notes.details.end());
     notes.limitations.insert(notes.limitations.end(), fused->notes.limitations.begin(),

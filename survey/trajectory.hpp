@@ -43,6 +43,16 @@ struct SensorUse {
     std::vector<Rejection> rejections;
 };
 
+/// Whether a sensor's innovations are as large as the filter says: the mean of nu' S^-1 nu over its readings
+/// in one run. Near `dof` when the sigmas are right, above when the filter is too sure. Source: Bar-Shalom,
+/// Li and Kirubarajan 2001, section 5.4.
+struct SensorConsistency {
+    std::string sensor;
+    std::size_t n = 0;      ///< readings that an update took
+    double dof = 0.0;       ///< rows per reading
+    double mean_nis = 0.0;  ///< normalised innovation squared
+};
+
 /// What a reader of the results should know of a run, in plain words.
 struct RunNotes {
     std::vector<std::string> limitations;  ///< what the log lacks as a whole, and what stands in for it
@@ -54,6 +64,7 @@ struct FusedRun {
     Trajectory trajectory;
     std::vector<SensorUse> sensors;
     RunNotes notes;
+    std::vector<SensorConsistency> consistency;  ///< from methods that compute it
 };
 
 }  // namespace terrawalk

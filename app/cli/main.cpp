@@ -101,7 +101,7 @@ void addConfiguration(CLI::App& command, ProcessArguments& arguments) {
         .add_option("--set", arguments.settings, "Set one parameter; `terrawalk config describe` lists them")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
-    command.add_option("--method", arguments.method, "raw or ukf; short for --set fusion.method=...");
+    command.add_option("--method", arguments.method, "raw, ukf or aukf; short for --set fusion.method=...");
     command.add_option("--seed", arguments.seed, "Short for --set seed=...");
 }
 

@@ -133,9 +133,13 @@ Parameter choice(std::string key, std::vector<std::pair<std::string, Enum>> name
 
 std::vector<Parameter> fusionParameters() {
     return {
-        choice<FusionMethod>("fusion.method", {{"raw", FusionMethod::Raw}, {"ukf", FusionMethod::Ukf}},
-                             "raw: sensors as they are; ukf: 9-state unscented Kalman filter",
-                             TERRAWALK_FIELD(fusion.method)),
+        choice<FusionMethod>(
+            "fusion.method",
+            {{"raw", FusionMethod::Raw}, {"ukf", FusionMethod::Ukf}, {"aukf", FusionMethod::Aukf}},
+            "raw: sensors as they are; ukf: 9-state unscented Kalman filter with gate and smoother; aukf: "
+            "the "
+            "method of paper 000 as it is",
+            TERRAWALK_FIELD(fusion.method)),
         flag("fusion.smooth", "Rauch-Tung-Striebel pass after the filter", TERRAWALK_FIELD(fusion.smooth)),
         number("fusion.stands.start_s", 0.2, 600, "still seconds at a start mark",
                TERRAWALK_FIELD(fusion.stands.start_s)),
@@ -339,6 +343,73 @@ std::vector<Parameter> fusionParameters() {
     };
 }
 
+std::vector<Parameter> aukfParameters() {
+    return {
+        choice<FilterKind>("fusion.aukf.filter",
+                           {{"ekf", FilterKind::Ekf},
+                            {"ckf", FilterKind::Ckf},
+                            {"ukf", FilterKind::Ukf},
+                            {"square-root-ukf", FilterKind::SquareRootUkf},
+                            {"adaptive-ukf", FilterKind::AdaptiveUkf}},
+                           "which filter method aukf runs on the model of paper 000",
+                           TERRAWALK_FIELD(fusion.aukf.filter)),
+        number("fusion.aukf.noise.position_e_m2", 0, 1000,
+               "variance that a step adds to the position, east, m2",
+               TERRAWALK_FIELD(fusion.aukf.noise.position_e_m2)),
+        number("fusion.aukf.noise.position_n_m2", 0, 1000,
+               "variance that a step adds to the position, north, m2",
+               TERRAWALK_FIELD(fusion.aukf.noise.position_n_m2)),
+        number("fusion.aukf.noise.position_u_m2", 0, 1000,
+               "variance that a step adds to the position, up, m2",
+               TERRAWALK_FIELD(fusion.aukf.noise.position_u_m2)),
+        number("fusion.aukf.noise.velocity_e_m2ps2", 0, 1000,
+               "variance that a step adds to the velocity, east, m2/s2",
+               TERRAWALK_FIELD(fusion.aukf.noise.velocity_e_m2ps2)),
+        number("fusion.aukf.noise.velocity_n_m2ps2", 0, 1000,
+               "variance that a step adds to the velocity, north, m2/s2",
+               TERRAWALK_FIELD(fusion.aukf.noise.velocity_n_m2ps2)),
+        number("fusion.aukf.noise.velocity_u_m2ps2", 0, 1000,
+               "variance that a step adds to the velocity, up, m2/s2",
+               TERRAWALK_FIELD(fusion.aukf.noise.velocity_u_m2ps2)),
+        number("fusion.aukf.noise.acceleration_e_m2ps4", 0, 1000,
+               "variance that a step adds to the acceleration, east, m2/s4",
+               TERRAWALK_FIELD(fusion.aukf.noise.acceleration_e_m2ps4)),
+        number("fusion.aukf.noise.acceleration_n_m2ps4", 0, 1000,
+               "variance that a step adds to the acceleration, north, m2/s4",
+               TERRAWALK_FIELD(fusion.aukf.noise.acceleration_n_m2ps4)),
+        number("fusion.aukf.noise.acceleration_u_m2ps4", 0, 1000,
+               "variance that a step adds to the acceleration, up, m2/s4",
+               TERRAWALK_FIELD(fusion.aukf.noise.acceleration_u_m2ps4)),
+        number("fusion.aukf.nominal_interval_s", 0.001, 60,
+               "step to which the noise belongs; a step of another length adds its share of it",
+               TERRAWALK_FIELD(fusion.aukf.nominal_interval_s)),
+        number("fusion.aukf.unscented.alpha", 0.0001, 1, "spread of the sigma points",
+               TERRAWALK_FIELD(fusion.aukf.unscented.alpha)),
+        number("fusion.aukf.unscented.beta", 0, 10, "weight of the centre point, 2 for a Gaussian",
+               TERRAWALK_FIELD(fusion.aukf.unscented.beta)),
+        number("fusion.aukf.unscented.kappa", 0, 10, "secondary spread of the sigma points",
+               TERRAWALK_FIELD(fusion.aukf.unscented.kappa)),
+        flag("fusion.aukf.yaw_row.use", "heading as a measurement of the course",
+             TERRAWALK_FIELD(fusion.aukf.yaw_row.use)),
+        number("fusion.aukf.yaw_row.sigma_deg", 0.001, 180, "of the heading as a course",
+               TERRAWALK_FIELD(fusion.aukf.yaw_row.sigma_deg)),
+        number("fusion.aukf.yaw_row.slowest_mps", 0.001, 10, "below this speed the row is left out",
+               TERRAWALK_FIELD(fusion.aukf.yaw_row.slowest_mps)),
+        number("fusion.aukf.yaw_row.mount_offset_deg", -180, 180,
+               "yaw of the array less course of the walk, counter-clockwise",
+               TERRAWALK_FIELD(fusion.aukf.yaw_row.mount_offset_deg)),
+        number("fusion.aukf.adaptive.forgetting", 0.5, 0.999999,
+               "filter adaptive-ukf: b, the noise remembers 1 / (1 - b) readings",
+               TERRAWALK_FIELD(fusion.aukf.adaptive.forgetting)),
+        number("fusion.aukf.adaptive.least_factor", 0.0001, 1,
+               "filter adaptive-ukf: least noise variance over the sensor's own",
+               TERRAWALK_FIELD(fusion.aukf.adaptive.least_factor)),
+        number("fusion.aukf.adaptive.greatest_factor", 1, 1e6,
+               "filter adaptive-ukf: greatest; a reading that asks for more is left out",
+               TERRAWALK_FIELD(fusion.aukf.adaptive.greatest_factor)),
+    };
+}
+
 std::vector<Parameter> groundParameters() {
     return {
         number("ground.sigma_range_near_m", 0.0001, 10, "of the range finder at short range",
@@ -394,14 +465,15 @@ std::vector<Parameter> surfaceParameters() {
 }
 
 // An option that is added without a parameter could be neither set nor reported.
-static_assert(sizeof(FusionOptions) == 688, "add the new option to fusionParameters()");
+static_assert(sizeof(FusionOptions) == 856, "add the new option to fusionParameters()");
+static_assert(sizeof(AukfOptions) == 168, "add the new option to aukfParameters()");
 static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
 static_assert(sizeof(SurfaceOptions) == 32, "add the new option to surfaceParameters()");
 
 const std::vector<Parameter>& parameters() {
     static const std::vector<Parameter> kParameters = [] {
         std::vector<Parameter> all = fusionParameters();
-        for (const auto& part : {groundParameters(), surfaceParameters()})
+        for (const auto& part : {aukfParameters(), groundParameters(), surfaceParameters()})
             all.insert(all.end(), part.begin(), part.end());
         return all;
     }();

@@ -341,8 +341,27 @@ Result<Comparison> compareBeforeFusion(const Survey& survey, const PipelineConfi
     return comparison;
 }
 
+std::string filterName(FilterKind filter) {
+    switch (filter) {
+        case FilterKind::Ekf:
+            return "extended Kalman filter";
+        case FilterKind::Ckf:
+            return "cubature Kalman filter";
+        case FilterKind::Ukf:
+            return "unscented Kalman filter";
+        case FilterKind::SquareRootUkf:
+            return "square-root unscented Kalman filter";
+        case FilterKind::AdaptiveUkf:
+            return "unscented Kalman filter with adaptive measurement noise";
+    }
+    return {};
+}
+
 std::string methodName(const FusionOptions& options) {
     if (options.method == FusionMethod::Raw) return "raw sensors, no fusion";
+    if (options.method == FusionMethod::Aukf) {
+        return "9-state " + filterName(options.aukf.filter) + " as published (Xie et al. 2024), forward only";
+    }
     return options.smooth ? "9-state unscented Kalman filter, Rauch-Tung-Striebel smoothed"
                           : "9-state unscented Kalman filter";
 }
@@ -359,14 +378,15 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     auto fused = trackGround(survey, config.fusion, config.ground, fusing, stop);
     if (!fused) return tl::unexpected(fused.error());
 
-    const bool tied = config.fusion.method != FusionMethod::Raw;
+    const bool is_fused = config.fusion.method != FusionMethod::Raw;
+    const bool tied = tiesToMarks(config.fusion.method);
     Result<Comparison> comparison;
-    if (tied) {
+    if (is_fused) {
         PartialProgress following(progress, 0.5, 0.7);
         comparison = compareBeforeFusion(survey, config, *projection, following, stop);
         if (!comparison) return tl::unexpected(comparison.error());
     }
-    compareTrack(survey, *fused, config, tied ? Stage::Fused : Stage::BeforeFusion, tied, *comparison);
+    compareTrack(survey, *fused, config, is_fused ? Stage::Fused : Stage::BeforeFusion, tied, *comparison);
 
     PartialProgress triangulating(progress, 0.7, 0.85);
     progress.report(0.7, "triangulating");
