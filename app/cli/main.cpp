@@ -262,6 +262,10 @@ int run(int argc, char** argv) {
     CLI::Option* experiment_name = experiment_command->add_option("name", experiment.name, "Which one");
     experiment_command->add_flag("--list", experiment.list, "Show all experiments")
         ->excludes(experiment_name);
+    experiment_command
+        ->add_option("survey", experiment.options.survey,
+                     "Survey to work on, for experiments that take one; a simulated one where it is left out")
+        ->excludes("--list");
     experiment_command->add_flag("--quick", experiment.options.quick, "A small form, done in seconds");
     experiment_command->add_option("-o,--output", experiment.output, "Folder for NAME.csv and NAME.svg")
         ->capture_default_str();

@@ -18,6 +18,9 @@ namespace {
 constexpr std::array kExperiments{
     Experiment{"fig7", "Paper 000, Fig 7: convergence of optimisers on classical functions", runFig7},
     Experiment{"fig8", "Paper 000, Fig 8: evenness of initial populations", runFig8},
+    Experiment{"accuracy", "Simulated surveys against their truth, by level of faults", runAccuracy},
+    Experiment{"outage", "GNSS masked for 10, 30 and 60 s in a survey's logs, or in a simulated walk's",
+               runOutage, true},
 };
 
 std::string printed(const Cell& cell) {
@@ -98,6 +101,9 @@ Result<ExperimentReport> runExperiment(std::string_view name, const ExperimentOp
     if (experiment == kExperiments.end()) {
         return usageError(fmt::format("no experiment is called \"{}\"", name),
                           "terrawalk experiment --list shows them");
+    }
+    if (!options.survey.empty() && !experiment->takes_survey) {
+        return usageError(fmt::format("the experiment {} takes no survey", name), "leave it out");
     }
     // A folder that cannot be written is said at once, not after the work.
     if (auto done = makeFolder(output); !done) return tl::unexpected(done.error());

@@ -19,6 +19,7 @@ struct ExperimentOptions {
     bool quick =
         false;  ///< a small form of the same experiment, done in seconds; the notes say what is smaller
     std::uint64_t seed = 1;
+    std::filesystem::path survey;  ///< folder or project file, for experiments on logs; empty: simulated
 };
 
 /// A cell of a table: empty, text or a number.
@@ -49,6 +50,7 @@ struct Experiment {
     std::string_view name;   ///< by which it is called: "fig8"
     std::string_view about;  ///< one line for the list
     Result<ExperimentReport> (*run)(const ExperimentOptions&, Progress&, std::stop_token);
+    bool takes_survey = false;
 };
 
 /// All of them, in the order of the papers.

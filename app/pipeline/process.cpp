@@ -1,64 +1,25 @@
 #include "app/pipeline/process.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <set>
 
+#include "app/pipeline/ground_track.hpp"
 #include "app/pipeline/inspect.hpp"
 #include "app/pipeline/relief.hpp"
 #include "app/pipeline/version.hpp"
-#include "fusion/fuse_survey.hpp"
 #include "io/map_projection.hpp"
 #include "mapping/accuracy_statements.hpp"
 #include "mapping/gridding.hpp"
 #include "mapping/mark_residuals.hpp"
 #include "mapping/order_statistics.hpp"
-#include "mapping/thinning.hpp"
 
 namespace terrawalk {
 
 namespace {
-
-/// One way from the logs to the ground: with fusion, or with the sensors as they are.
-struct GroundTrack {
-    std::vector<FusedRun> runs;
-    std::vector<GroundPoint> points;       ///< run by run
-    std::vector<std::size_t> first_point;  ///< of each run, and the end
-};
-
-Result<GroundTrack> trackGround(const Survey& survey, const FusionOptions& fusion,
-                                const GroundPointOptions& ground, Progress& progress,
-                                const std::stop_token& stop) {
-    auto fused = fuseSurvey(survey, fusion, progress, stop);
-    if (!fused) return tl::unexpected(fused.error());
-    GroundTrack track{std::move(fused->runs), {}, {}};
-    const std::size_t n = survey.runs.size();
-    std::vector<std::vector<GroundPoint>> points(n);
-    tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
-        points[i] = groundPoints(survey.runs[i], static_cast<std::uint32_t>(i), track.runs[i].trajectory,
-                                 ground, stop);
-    });
-    if (stop.stop_requested()) return cancelled();
-    for (std::size_t i = 0; i < n; ++i) {
-        track.first_point.push_back(track.points.size());
-        track.points.insert(track.points.end(), points[i].begin(), points[i].end());
-    }
-    track.first_point.push_back(track.points.size());
-    return track;
-}
-
-/// Those of one run, from all points in the order of `track`.
-std::vector<GroundPoint> pointsOfRun(const std::vector<GroundPoint>& points, const GroundTrack& track,
-                                     std::size_t run) {
-    const auto at = [&](std::size_t i) {
-        return points.begin() + static_cast<std::ptrdiff_t>(i);
-    };
-    return {at(track.first_point[run]), at(track.first_point[run + 1])};
-}
 
 struct Comparison {
     std::vector<Residual> residuals;
@@ -83,19 +44,6 @@ void compareTrack(const Survey& survey, const GroundTrack& track, const Pipeline
         tied ? tiedMarks(survey, config.fusion.stands) : std::set<std::string>{};
     comparison.add(nearestSampleResiduals(survey, track.points, stage, tied_marks,
                                           {.greatest_distance_m = config.report.nearest_sample_limit_m}));
-}
-
-/// The points that shall carry the surface: of the runs that were asked for, one in each cell. Runs are left
-/// out before cells are thinned, so that none of their points stands for a cell.
-std::vector<GroundPoint> surfacePoints(const Survey& survey, std::vector<GroundPoint> points,
-                                       const SurfaceOptions& options) {
-    if (!options.fixed_point_runs) {
-        for (GroundPoint& point : points) {
-            const bool left_out = survey.runs[point.run].kind == RunKind::FixedPoint;
-            if (left_out && point.state == GroundPointState::Used) point.state = GroundPointState::RunLeftOut;
-        }
-    }
-    return thinGroundPoints(std::move(points), options.thinning_cell_m);
 }
 
 Result<std::vector<Eigen::Vector3d>> usedInMap(const std::vector<GroundPoint>& points,

@@ -11,4 +11,9 @@ namespace terrawalk {
 [[nodiscard]] Result<ExperimentReport> runFig8(const ExperimentOptions& options, Progress& progress,
                                                std::stop_token stop);
 
+[[nodiscard]] Result<ExperimentReport> runAccuracy(const ExperimentOptions& options, Progress& progress,
+                                                   std::stop_token stop);
+[[nodiscard]] Result<ExperimentReport> runOutage(const ExperimentOptions& options, Progress& progress,
+                                                 std::stop_token stop);
+
 }  // namespace terrawalk

@@ -1,0 +1,57 @@
+#include "app/pipeline/ground_track.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <cstdint>
+#include <utility>
+
+#include "fusion/fuse_survey.hpp"
+#include "mapping/thinning.hpp"
+
+namespace terrawalk {
+
+Result<GroundTrack> groundBelow(const Survey& survey, std::vector<FusedRun> runs,
+                                const GroundPointOptions& ground, std::stop_token stop) {
+    GroundTrack track{std::move(runs), {}, {}};
+    const std::size_t n = survey.runs.size();
+    std::vector<std::vector<GroundPoint>> points(n);
+    tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+        points[i] = groundPoints(survey.runs[i], static_cast<std::uint32_t>(i), track.runs[i].trajectory,
+                                 ground, stop);
+    });
+    if (stop.stop_requested()) return cancelled();
+    for (std::size_t i = 0; i < n; ++i) {
+        track.first_point.push_back(track.points.size());
+        track.points.insert(track.points.end(), points[i].begin(), points[i].end());
+    }
+    track.first_point.push_back(track.points.size());
+    return track;
+}
+
+Result<GroundTrack> trackGround(const Survey& survey, const FusionOptions& fusion,
+                                const GroundPointOptions& ground, Progress& progress, std::stop_token stop) {
+    auto fused = fuseSurvey(survey, fusion, progress, stop);
+    if (!fused) return tl::unexpected(fused.error());
+    return groundBelow(survey, std::move(fused->runs), ground, stop);
+}
+
+std::vector<GroundPoint> pointsOfRun(const std::vector<GroundPoint>& points, const GroundTrack& track,
+                                     std::size_t run) {
+    const auto at = [&](std::size_t i) {
+        return points.begin() + static_cast<std::ptrdiff_t>(i);
+    };
+    return {at(track.first_point[run]), at(track.first_point[run + 1])};
+}
+
+std::vector<GroundPoint> surfacePoints(const Survey& survey, std::vector<GroundPoint> points,
+                                       const SurfaceOptions& options) {
+    if (!options.fixed_point_runs) {
+        for (GroundPoint& point : points) {
+            const bool left_out = survey.runs[point.run].kind == RunKind::FixedPoint;
+            if (left_out && point.state == GroundPointState::Used) point.state = GroundPointState::RunLeftOut;
+        }
+    }
+    return thinGroundPoints(std::move(points), options.thinning_cell_m);
+}
+
+}  // namespace terrawalk
