@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <string_view>
+#include <utility>
+
 #include "survey/mark_stands.hpp"
 
 namespace terrawalk {
@@ -9,6 +13,10 @@ enum class FusionMethod {
     Ukf,   ///< 9-state unscented Kalman filter with a Rauch-Tung-Striebel pass
     Aukf,  ///< the method of paper 000 as it is: no gate, no smoother; `AukfOptions` name the filter
 };
+
+/// The names that the command line and reports use.
+inline constexpr std::array<std::pair<FusionMethod, std::string_view>, 3> kFusionMethodNames{
+    {{FusionMethod::Raw, "raw"}, {FusionMethod::Ukf, "ukf"}, {FusionMethod::Aukf, "aukf"}}};
 
 /// Whether a method ties the track to the control marks that a run stands on after its start.
 [[nodiscard]] constexpr bool tiesToMarks(FusionMethod method) {
@@ -177,6 +185,14 @@ enum class FilterKind {
     SquareRootUkf,  ///< the same in square-root form (van der Merwe and Wan 2001)
     AdaptiveUkf,    ///< measurement noise adapts by a bounded, sequential Sage-Husa rule, paper 004
 };
+
+/// The names that the command line and reports use.
+inline constexpr std::array<std::pair<FilterKind, std::string_view>, 5> kFilterNames{
+    {{FilterKind::Ekf, "ekf"},
+     {FilterKind::Ckf, "ckf"},
+     {FilterKind::Ukf, "ukf"},
+     {FilterKind::SquareRootUkf, "square-root-ukf"},
+     {FilterKind::AdaptiveUkf, "adaptive-ukf"}}};
 
 /// Diagonal of Q of paper 000, eq 12: variance that a step of `AukfOptions::nominal_interval_s` adds.
 struct StepNoiseOptions {

@@ -14,6 +14,7 @@
 #include "app/cli/simulate_options.hpp"
 #include "app/cli/terminal_progress.hpp"
 #include "app/cli/tune_options.hpp"
+#include "app/pipeline/compare.hpp"
 #include "app/pipeline/experiment.hpp"
 #include "app/pipeline/jobs.hpp"
 #include "app/pipeline/json_output.hpp"
@@ -105,12 +106,16 @@ void addCommon(CLI::App& command, Common& common) {
     addQuiet(command, common);
 }
 
-void addConfiguration(CLI::App& command, ProcessArguments& arguments) {
+void addSettings(CLI::App& command, ProcessArguments& arguments) {
     command.add_option("--config", arguments.config_file, "JSON file with parameters")->type_name("FILE");
     command
         .add_option("--set", arguments.settings, "Set one parameter; `terrawalk config describe` lists them")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
+}
+
+void addConfiguration(CLI::App& command, ProcessArguments& arguments) {
+    addSettings(command, arguments);
     command.add_option("--method", arguments.method, "raw, ukf or aukf; short for --set fusion.method=...");
     command.add_option("--seed", arguments.seed, "Short for --set seed=...");
 }
@@ -132,8 +137,8 @@ Result<PipelineConfig> configuration(const ProcessArguments& arguments) {
 }
 
 // What a second person has to type for the same result; what changes no byte of it is left out.
-Provenance provenanceOf(const ProcessArguments& arguments) {
-    Provenance provenance{{"terrawalk", "process", arguments.survey.string()}};
+Provenance provenanceOf(const std::string& command, const ProcessArguments& arguments) {
+    Provenance provenance{{"terrawalk", command, arguments.survey.string()}};
     const auto add = [&](const std::string& option, const std::string& value) {
         provenance.command.push_back(option);
         provenance.command.push_back(value);
@@ -159,8 +164,8 @@ int runProcess(const ProcessArguments& arguments, const Common& common, Terminal
         tuning = arguments.tuning;
         tuning->seed = config->seed;
     }
-    const auto products = processSurvey(arguments.survey, *config, provenanceOf(arguments), arguments.output,
-                                        progress, stop, tuning);
+    const auto products = processSurvey(arguments.survey, *config, provenanceOf("process", arguments),
+                                        arguments.output, progress, stop, tuning);
     if (!products) return fail(products.error(), common, progress);
     progress.clear();
     if (common.json) {
@@ -188,6 +193,22 @@ int runTune(TuneArguments& arguments, const Common& common, TerminalProgress& pr
         fmt::print("{}Written to {}\nUse it with: terrawalk process {} --config {} -o out\n",
                    toText(tuned->outcome), printable(file), printable(asked.survey.string()),
                    printable(file));
+    }
+    return 0;
+}
+
+int runCompare(const ProcessArguments& arguments, const Common& common, TerminalProgress& progress,
+               const std::stop_token& stop) {
+    const auto config = configuration(arguments);
+    if (!config) return fail(config.error(), common, progress);
+    const auto comparison = compareSurvey(arguments.survey, *config, provenanceOf("compare", arguments),
+                                          arguments.output, progress, stop);
+    if (!comparison) return fail(comparison.error(), common, progress);
+    progress.clear();
+    if (common.json) {
+        fmt::print("{}", toJson(*comparison, arguments.output));
+    } else if (!common.quiet) {
+        fmt::print("{}", toText(*comparison));
     }
     return 0;
 }
@@ -308,6 +329,17 @@ int run(int argc, char** argv) {
     addConfiguration(*tune_command, tune.survey_and_configuration);
     addCommon(*tune_command, common);
 
+    ProcessArguments compare;
+    compare.output.clear();
+    CLI::App* compare_command =
+        app.add_subcommand("compare", "Run every method over a survey and tell their errors side by side");
+    compare_command->add_option("survey", compare.survey, "survey.json, or the folder that holds it")
+        ->required();
+    compare_command->add_option("-o,--output", compare.output,
+                                "Folder for comparison.csv and comparison.txt; none: printed only");
+    addSettings(*compare_command, compare);
+    addCommon(*compare_command, common);
+
     fs::path inspected;
     CLI::App* inspect_command = app.add_subcommand("inspect", "Show what is in a log or a survey");
     inspect_command->add_option("path", inspected, "survey.json, its folder, or one log")->required();
@@ -358,6 +390,7 @@ int run(int argc, char** argv) {
     TerminalProgress progress(common.quiet);
     if (process_command->parsed()) return runProcess(process, common, progress, interrupt.token());
     if (tune_command->parsed()) return runTune(tune, common, progress, interrupt.token());
+    if (compare_command->parsed()) return runCompare(compare, common, progress, interrupt.token());
     if (inspect_command->parsed()) return runInspect(inspected, common, progress, interrupt.token());
     if (simulate_command->parsed()) return runSimulate(simulate, common, progress, interrupt.token());
     if (experiment_command->parsed()) return runExperiments(experiment, common, progress, interrupt.token());

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -127,6 +128,14 @@ Parameter choice(std::string key, std::vector<std::pair<std::string, Enum>> name
     return p;
 }
 
+template <class Enum, std::size_t n>
+std::vector<std::pair<std::string, Enum>> named(
+    const std::array<std::pair<Enum, std::string_view>, n>& names) {
+    std::vector<std::pair<std::string, Enum>> list;
+    for (const auto& [value, text] : names) list.emplace_back(text, value);
+    return list;
+}
+
 #define TERRAWALK_FIELD(path)              \
     [](PipelineConfig & config) -> auto& { \
         return config.path;                \
@@ -135,8 +144,7 @@ Parameter choice(std::string key, std::vector<std::pair<std::string, Enum>> name
 std::vector<Parameter> fusionParameters() {
     return {
         choice<FusionMethod>(
-            "fusion.method",
-            {{"raw", FusionMethod::Raw}, {"ukf", FusionMethod::Ukf}, {"aukf", FusionMethod::Aukf}},
+            "fusion.method", named(kFusionMethodNames),
             "raw: sensors as they are; ukf: 9-state unscented Kalman filter with gate and smoother; aukf: "
             "the "
             "method of paper 000 as it is",
@@ -346,12 +354,7 @@ std::vector<Parameter> fusionParameters() {
 
 std::vector<Parameter> aukfParameters() {
     return {
-        choice<FilterKind>("fusion.aukf.filter",
-                           {{"ekf", FilterKind::Ekf},
-                            {"ckf", FilterKind::Ckf},
-                            {"ukf", FilterKind::Ukf},
-                            {"square-root-ukf", FilterKind::SquareRootUkf},
-                            {"adaptive-ukf", FilterKind::AdaptiveUkf}},
+        choice<FilterKind>("fusion.aukf.filter", named(kFilterNames),
                            "which filter method aukf runs on the model of paper 000",
                            TERRAWALK_FIELD(fusion.aukf.filter)),
         number("fusion.aukf.noise.position_e_m2", 0, 1000,
@@ -399,7 +402,7 @@ std::vector<Parameter> aukfParameters() {
         number("fusion.aukf.yaw_row.mount_offset_deg", -180, 180,
                "yaw of the array less course of the walk, counter-clockwise",
                TERRAWALK_FIELD(fusion.aukf.yaw_row.mount_offset_deg)),
-        number("fusion.aukf.adaptive.forgetting", 0.5, 0.999999,
+        number("fusion.aukf.adaptive.forgetting", 0, 1,
                "filter adaptive-ukf: b, the noise remembers 1 / (1 - b) readings",
                TERRAWALK_FIELD(fusion.aukf.adaptive.forgetting)),
         number("fusion.aukf.adaptive.least_factor", 0.0001, 1,
