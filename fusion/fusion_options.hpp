@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string_view>
 #include <utility>
 
@@ -17,6 +18,10 @@ enum class FusionMethod {
 /// The names that the command line and reports use.
 inline constexpr std::array<std::pair<FusionMethod, std::string_view>, 3> kFusionMethodNames{
     {{FusionMethod::Raw, "raw"}, {FusionMethod::Ukf, "ukf"}, {FusionMethod::Aukf, "aukf"}}};
+
+[[nodiscard]] constexpr std::string_view name(FusionMethod method) {
+    return kFusionMethodNames[static_cast<std::size_t>(method)].second;
+}
 
 /// Whether a method ties the track to the control marks that a run stands on after its start.
 [[nodiscard]] constexpr bool tiesToMarks(FusionMethod method) {

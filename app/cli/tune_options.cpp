@@ -9,17 +9,16 @@ namespace terrawalk {
 std::vector<CLI::Option*> addTuneOptions(CLI::App& command, TuneOptions& o) {
     const auto count = [&](const char* option, std::size_t& value, std::size_t least, std::size_t greatest,
                            const char* meaning) {
-        return command.add_option(option, value, meaning)
-            ->check(CLI::Range(least, greatest))
-            ->capture_default_str();
+        return command.add_option(option, value, meaning)->check(CLI::Range(least, greatest));
     };
     CLI::Option* hyperparameters =
         command.add_flag("--hyperparameters", o.hyperparameters,
                          "aukf: tune alpha, beta and kappa as well as the nine process noises");
     return {addChoice(command, "--optimizer,--optimiser", o.optimiser, kOptimiserNames, "Who searches"),
-            count("--population", o.population, 8, 100'000, "Candidates that the search keeps"),
-            count("--iterations", o.iterations, 1, 10'000'000, "How often each of them is tried anew"),
-            count("--restarts", o.restarts, 1, 64, "Independent searches, each of that budget"),
+            count("--population", o.population, 8, 100'000, "Candidates that the search keeps [aukf: 100]"),
+            count("--iterations", o.iterations, 1, 10'000'000,
+                  "How often each of them is tried anew [aukf: 1000]"),
+            count("--restarts", o.restarts, 1, 64, "Independent searches, each of that budget [1]"),
             hyperparameters,
             command
                 .add_option_function<int>(

@@ -1,6 +1,7 @@
 #include "app/pipeline/tune.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -23,17 +24,18 @@ std::vector<std::size_t> allParts(const TunableProblem& problem) {
 }
 
 std::vector<double> lossOver(const TunableProblem& problem, std::span<const std::size_t> parts,
-                             std::span<const double> candidate) {
+                             std::span<const double> candidate, const std::stop_token& stop) {
     std::vector<double> loss(problem.components.size());
-    problem.losses(candidate, parts, loss);
+    problem.losses(candidate, parts, loss, stop);
     return loss;
 }
 
 std::vector<std::vector<double>> lossOfEachPart(const TunableProblem& problem,
-                                                std::span<const double> candidate) {
+                                                std::span<const double> candidate,
+                                                const std::stop_token& stop) {
     std::vector<std::vector<double>> losses;
     for (std::size_t i = 0; i < problem.parts.size(); ++i) {
-        losses.push_back(lossOver(problem, std::span(&i, 1), candidate));
+        losses.push_back(lossOver(problem, std::span(&i, 1), candidate, stop));
     }
     return losses;
 }
@@ -107,29 +109,42 @@ OptimiserOptions wholeBudget(const TuneOptions& options) {
     return search;
 }
 
-/// The searches with one part left out cost together about as much as the search over all.
-OptimiserOptions budgetForLeftOut(const TuneOptions& options, std::size_t parts, std::size_t part) {
+/// The searches with a group left out cost together about as much as the search over all.
+OptimiserOptions budgetForLeftOut(const TuneOptions& options, std::size_t groups, std::size_t group) {
     constexpr std::size_t kPopulation = 30;
-    constexpr std::size_t kFewestRounds = 10;
+    constexpr std::size_t kFewestRounds = 5;
     OptimiserOptions search = wholeBudget(options);
     const std::size_t whole = evaluationLimit(search);
     search.population = std::min(options.population, kPopulation);
     search.generations = 0;
-    search.max_evaluations = std::min(whole, std::max(whole / parts, kFewestRounds * search.population));
+    search.max_evaluations = std::min(whole, std::max(whole / groups, kFewestRounds * search.population));
     search.islands = 1;
-    search.seed = scramble({options.seed, part + 1});
+    search.seed = scramble({options.seed, group + 1});
     return search;
+}
+
+std::size_t groupCount(const TunableProblem& problem) {
+    const std::size_t parts = problem.parts.size();
+    return problem.left_out_groups == 0 ? parts : std::min(parts, problem.left_out_groups);
 }
 
 std::vector<Search> plannedSearches(const TunableProblem& problem, const TuneOptions& options) {
     const std::vector<std::size_t> all = allParts(problem);
     std::vector<Search> searches{{0, all, wholeBudget(options), "tuning"}};
-    if (all.size() < 2) return searches;
-    for (const std::size_t part : all) {
-        std::vector<std::size_t> others = all;
-        others.erase(others.begin() + static_cast<std::ptrdiff_t>(part));
-        searches.push_back({part + 1, std::move(others), budgetForLeftOut(options, all.size(), part),
-                            "tuning without " + problem.parts[part].name});
+    const std::size_t groups = groupCount(problem);
+    if (groups < 2) return searches;
+    for (std::size_t group = 0; group < groups; ++group) {
+        std::vector<std::size_t> others;
+        std::vector<std::string> left_out;
+        for (const std::size_t part : all) {
+            if (part % groups == group) {
+                left_out.push_back(problem.parts[part].name);
+            } else {
+                others.push_back(part);
+            }
+        }
+        searches.push_back({group + 1, std::move(others), budgetForLeftOut(options, groups, group),
+                            fmt::format("tuning without {}", fmt::join(left_out, ", "))});
     }
     return searches;
 }
@@ -146,8 +161,8 @@ Result<SearchOutcome> run(const TunableProblem& problem, const Search& search, P
     BestLossProgress best_progress(progress, problem, search.parts.size(), search.step);
     const Objective objective{.evaluate =
                                   [&](std::span<const double> candidates, std::span<double> losses) {
-                                      problem.losses(candidates, search.parts, losses);
-                                      best_progress.offer(losses);
+                                      problem.losses(candidates, search.parts, losses, stop);
+                                      if (!stop.stop_requested()) best_progress.offer(losses);
                                   },
                               .losses = problem.components.size(),
                               .fingerprint = scramble({problem.fingerprint, search.number})};
@@ -169,7 +184,8 @@ Result<SearchOutcome> run(const TunableProblem& problem, const Search& search, P
     if (!found) return tl::unexpected(found.error());
     if (found->cancelled) return cancelled();
     const std::vector<double> start = problem.start();
-    const bool improved = found->best_loss < totalLoss(lossOver(problem, search.parts, start));
+    const bool improved = found->best_loss < totalLoss(lossOver(problem, search.parts, start, stop));
+    if (stop.stop_requested()) return cancelled();
     return SearchOutcome{improved ? found->best : start, improved, std::move(*found)};
 }
 
@@ -179,7 +195,8 @@ struct Profile {
     std::vector<double> losses;
 };
 
-Profile profileOf(const TunableProblem& problem, std::size_t parameter, std::span<const double> best) {
+Profile profileOf(const TunableProblem& problem, std::size_t parameter, std::span<const double> best,
+                  const std::stop_token& stop) {
     const TunableParameter& p = problem.parameters[parameter];
     Profile profile;
     std::vector<double> candidates;
@@ -191,7 +208,7 @@ Profile profileOf(const TunableProblem& problem, std::size_t parameter, std::spa
     }
     const std::size_t m = problem.components.size();
     std::vector<double> losses(problem.profile_points * m);
-    problem.losses(candidates, allParts(problem), losses);
+    problem.losses(candidates, allParts(problem), losses, stop);
     for (std::size_t k = 0; k < problem.profile_points; ++k) {
         profile.losses.push_back(totalLoss(std::span(losses).subspan(k * m, m)));
     }
@@ -259,8 +276,10 @@ void addSpread(std::vector<TunedParameter>& tuned, const TunableProblem& problem
     }
 }
 
-HeldOutComparison compareHeldOut(const std::vector<PartOutcome>& parts, const OptimiserOptions& budget) {
-    HeldOutComparison held{.evaluations_each = evaluationLimit(budget), .population = budget.population};
+HeldOutComparison compareHeldOut(const std::vector<PartOutcome>& parts, std::size_t groups,
+                                 const OptimiserOptions& budget) {
+    HeldOutComparison held{
+        .groups = groups, .evaluations_each = evaluationLimit(budget), .population = budget.population};
     std::vector<double> gains;
     for (const PartOutcome& part : parts) {
         const double before = totalLoss(part.before);
@@ -334,11 +353,19 @@ double rootMean(double loss, std::size_t parts) {
     return std::sqrt(loss / static_cast<double>(parts));
 }
 
+TuneOptions usedOptions(const TunableProblem& problem, TuneOptions options) {
+    if (options.population == 0) options.population = problem.usual_population;
+    if (options.iterations == 0) options.iterations = problem.usual_iterations;
+    return options;
+}
+
 Result<TuneOutcome> tune(const TunableProblem& problem, const PipelineConfig& config,
-                         const TuneOptions& options, Progress& progress, std::stop_token stop,
+                         const TuneOptions& asked, Progress& progress, std::stop_token stop,
                          const TuneRecording& recording) {
+    const TuneOptions options = usedOptions(problem, asked);
     const std::vector<Search> searches = plannedSearches(problem, options);
-    std::size_t planned = 0;
+    const std::size_t profiles = problem.parameters.size() * problem.profile_points;
+    std::size_t planned = profiles;
     for (const Search& search : searches) planned += evaluationLimit(search.options);
     std::size_t done = 0;
     std::vector<SearchOutcome> outcomes;
@@ -363,34 +390,40 @@ Result<TuneOutcome> tune(const TunableProblem& problem, const PipelineConfig& co
                         .components = problem.components,
                         .squared_metres = problem.squared_metres,
                         .marks = problem.marks,
-                        .before = lossOver(problem, allParts(problem), problem.start()),
-                        .after = lossOver(problem, allParts(problem), whole.best),
+                        .before = lossOver(problem, allParts(problem), problem.start(), stop),
+                        .after = lossOver(problem, allParts(problem), whole.best, stop),
                         .improved = whole.improved,
                         .convergence = whole.found.convergence,
                         .search_notes = whole.found.notes,
                         .search_evaluations = whole.found.evaluations};
-    const auto before = lossOfEachPart(problem, problem.start());
-    const auto after = lossOfEachPart(problem, whole.best);
+    const auto before = lossOfEachPart(problem, problem.start(), stop);
+    const auto after = lossOfEachPart(problem, whole.best, stop);
     for (std::size_t i = 0; i < problem.parts.size(); ++i) {
         PartOutcome part{problem.parts[i], before[i], after[i], {}};
         if (!outcomes.empty()) {
-            part.left_out = lossOver(problem, std::span(&i, 1), outcomes[i].best);
-            outcome.held_out_evaluations += outcomes[i].found.evaluations;
+            part.left_out = lossOver(problem, std::span(&i, 1), outcomes[i % outcomes.size()].best, stop);
         }
         outcome.parts.push_back(std::move(part));
     }
+    for (const SearchOutcome& left_out : outcomes) {
+        outcome.held_out_evaluations += left_out.found.evaluations;
+    }
     for (std::size_t i = 0; i < problem.parameters.size(); ++i) {
+        progress.report(
+            1.0 - static_cast<double>(profiles - outcome.profile_evaluations) / static_cast<double>(planned),
+            "looking at the effect of " + problem.parameters[i].name);
+        const Profile profile = profileOf(problem, i, whole.best, stop);
         if (stop.stop_requested()) return cancelled();
-        const Profile profile = profileOf(problem, i, whole.best);
         outcome.profile_evaluations += profile.places.size();
         outcome.parameters.push_back(
             tunedParameter(problem.parameters[i], whole.best[i], profile, totalLoss(outcome.after)));
     }
     addSpread(outcome.parameters, problem, outcomes);
     if (!outcomes.empty()) {
-        outcome.held_out = compareHeldOut(outcome.parts, searches.back().options);
+        outcome.held_out = compareHeldOut(outcome.parts, outcomes.size(), searches.back().options);
         outcome.holds_out_better = outcome.improved && holdsOutBetter(*outcome.held_out);
     }
+    if (stop.stop_requested()) return cancelled();
     outcome.decision = decisionText(problem, outcome);
     outcome.warnings = warningsOf(outcome.parameters);
     auto tuned = withCandidate(problem, config, whole.best);

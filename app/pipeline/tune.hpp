@@ -18,8 +18,8 @@ namespace terrawalk {
 
 struct TuneOptions {
     OptimiserKind optimiser = OptimiserKind::Isma;
-    std::size_t population = 100;
-    std::size_t iterations = 1000;
+    std::size_t population = 0;    ///< 0: what is usual for the problem, aukf 100
+    std::size_t iterations = 0;    ///< 0: the same, aukf 1000
     std::size_t restarts = 1;      ///< independent searches, each of the whole budget; the best is taken
     bool hyperparameters = false;  ///< alpha, beta and kappa as well
     std::uint64_t seed = 1;
@@ -52,12 +52,13 @@ struct PartOutcome {
     TunablePart part;
     std::vector<double> before;
     std::vector<double> after;
-    std::vector<double> left_out;  ///< tuned on all other parts; empty where that was not possible
+    std::vector<double> left_out;  ///< tuned without it; empty where that was not possible
 };
 
-/// What tuning is worth on data that it has not seen: each part in turn is left out, the others are tuned on
-/// with a smaller budget, and the part is the test.
+/// What tuning is worth on data that it has not seen: each part, or group of parts, in turn is left out, the
+/// others are tuned on with a smaller budget, and what was left out is the test.
 struct HeldOutComparison {
+    std::size_t groups = 0;
     std::size_t evaluations_each = 0;
     std::size_t population = 0;
     double before = 0.0;               ///< sum over the parts, with the values as they were
@@ -66,7 +67,7 @@ struct HeldOutComparison {
 };
 
 struct TuneOutcome {
-    TuneOptions options;
+    TuneOptions options;  ///< as used
     std::string method;
     std::string loss_meaning;
     std::string loss_unit;
@@ -98,7 +99,10 @@ struct TuneOutcome {
 [[nodiscard]] double totalLoss(std::span<const double> components);
 [[nodiscard]] double rootMean(double loss, std::size_t parts);
 
-/// Losses of the searches of one tuning, in their order: the search over all parts, then those with one part
+/// The options with what is usual for the problem filled in.
+[[nodiscard]] TuneOptions usedOptions(const TunableProblem& problem, TuneOptions options);
+
+/// Losses of the searches of one tuning, in their order: the search over all parts, then those with a group
 /// left out. Enough to resume it.
 using TuneRecord = std::vector<EvaluationRecord>;
 

@@ -204,7 +204,8 @@ std::string tuneFileText(const TuneOutcome& outcome, const std::string& survey_n
     section["after"] = lossJson(outcome, outcome.after);
     section["left_out"] = nullptr;
     if (outcome.held_out) {
-        section["left_out"] = {{"evaluations_each", outcome.held_out->evaluations_each},
+        section["left_out"] = {{"groups", outcome.held_out->groups},
+                               {"evaluations_each", outcome.held_out->evaluations_each},
                                {"population", outcome.held_out->population},
                                {"before", outcome.held_out->before},
                                {"after", outcome.held_out->after},

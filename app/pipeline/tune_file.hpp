@@ -22,8 +22,9 @@ namespace terrawalk {
 ///              optimiser_requested, restarts, search_notes,
 ///              evaluations_spent  {search, left_out, profile}
 ///              before, after      {component: loss ..., sum, and in m: rmse, rmse of each component}
-///              left_out           {evaluations_each, population, before, after, gain, gain_standard_error}
-///              parameters         [{name, settings: [{key, before, after}], lower, upper, on_bound: "lower",
+///              left_out           {groups, evaluations_each, population, before, after, gain,
+///              gain_standard_error} parameters         [{name, settings: [{key, before, after}], lower,
+///              upper, on_bound: "lower",
 ///                                 "upper" or null, flat_from, flat_to, flat_share, identified,
 ///                                 left_out_least, left_out_greatest}]
 ///              parts              [{name, mark, before, after, left_out}]

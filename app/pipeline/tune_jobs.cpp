@@ -79,9 +79,9 @@ Result<TunedSurvey> tuneSurvey(const fs::path& path, const PipelineConfig& confi
     PartialProgress reading(progress, 0.0, 0.02);
     const auto survey = openSurvey(path, reading, stop);
     if (!survey) return tl::unexpected(survey.error());
-    const auto problem = tunableProblem(*survey, config, options.hyperparameters);
+    const auto problem = tunableProblem(*survey, config, options.hyperparameters, stop);
     if (!problem) return tl::unexpected(problem.error());
-    const TuneIdentity identity = identityOf(*survey, *problem, options);
+    const TuneIdentity identity = identityOf(*survey, *problem, usedOptions(*problem, options));
     auto checkpoint = files.resume ? TuneCheckpoint::resume(files.checkpointFile(), identity)
                                    : TuneCheckpoint::begin(files.checkpointFile(), identity);
     if (!checkpoint) return tl::unexpected(checkpoint.error());
@@ -98,7 +98,7 @@ Result<TunedSurvey> tuneSurvey(const fs::path& path, const PipelineConfig& confi
 Result<PipelineConfig> tunedWhereBetter(const Survey& survey, PipelineConfig config,
                                         const TuneOptions& options, Progress& progress,
                                         std::stop_token stop) {
-    const auto problem = tunableProblem(survey, config, options.hyperparameters);
+    const auto problem = tunableProblem(survey, config, options.hyperparameters, stop);
     if (!problem) return tl::unexpected(problem.error());
     auto outcome = tune(*problem, config, options, progress, stop);
     if (!outcome) return tl::unexpected(outcome.error());

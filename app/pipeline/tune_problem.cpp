@@ -9,6 +9,7 @@
 #include <memory>
 #include <numeric>
 
+#include "app/pipeline/tune_survey_loss.hpp"
 #include "fusion/fixed_point_loss.hpp"
 
 namespace terrawalk {
@@ -89,8 +90,8 @@ Result<TunableProblem> aukfProblem(const Survey& survey, const PipelineConfig& c
         if (!known) problem.marks.push_back(survey.findMark(run.target).value());
     }
     problem.losses = [dimensions, loss = *loss](std::span<const double> candidates,
-                                                std::span<const std::size_t> parts,
-                                                std::span<double> losses) {
+                                                std::span<const std::size_t> parts, std::span<double> losses,
+                                                const std::stop_token&) {
         if (parts.size() == loss.runs().size()) return loss.losses(candidates, dimensions, losses);
         loss.over(parts).losses(candidates, dimensions, losses);
     };
@@ -128,11 +129,17 @@ Result<PipelineConfig> withCandidate(const TunableProblem& problem, PipelineConf
 }
 
 Result<TunableProblem> tunableProblem(const Survey& survey, const PipelineConfig& config,
-                                      bool hyperparameters) {
-    if (config.fusion.method != FusionMethod::Aukf) {
-        return usageError("the chosen method has no parameters to tune", "choose --method aukf");
+                                      bool hyperparameters, const std::stop_token& stop) {
+    const FusionMethod method = config.fusion.method;
+    if (method == FusionMethod::Raw) {
+        return usageError("raw sensors have no parameters to tune", "choose another --method");
     }
-    auto problem = aukfProblem(survey, config, hyperparameters);
+    if (hyperparameters && method != FusionMethod::Aukf) {
+        return usageError("only method aukf has alpha, beta and kappa to tune",
+                          "leave --hyperparameters out");
+    }
+    auto problem = method == FusionMethod::Aukf ? aukfProblem(survey, config, hyperparameters)
+                                                : surveyProblem(survey, config, stop);
     if (!problem) return problem;
     Fingerprint print;
     print.add(surveyFingerprint(survey));

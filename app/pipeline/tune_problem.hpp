@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -52,13 +53,19 @@ struct TunableProblem {
     /// m; their sum is made small.
     std::vector<std::string> components;
     /// Sums over the chosen parts, for each candidate: `candidates` is n x d, `losses` n x m. Infinite where
-    /// the method fails. Pure; safe from any thread.
+    /// the method fails. Pure, but for what it leaves unfinished when a stop is requested; safe from any
+    /// thread.
     std::function<void(std::span<const double> candidates, std::span<const std::size_t> parts,
-                       std::span<double> losses)>
+                       std::span<double> losses, const std::stop_token& stop)>
         losses;
     bool squared_metres = false;     ///< the root of the mean over the parts is an error in metres
     std::size_t profile_points = 0;  ///< places at which each parameter's effect is looked at
-    std::uint64_t fingerprint = 0;   ///< of data and settings
+    /// What a search takes when nothing else is asked for.
+    std::size_t usual_population = 100;
+    std::size_t usual_iterations = 1000;
+    /// Into so many groups the parts are dealt; each group is left out once. 0: each part by itself.
+    std::size_t left_out_groups = 0;
+    std::uint64_t fingerprint = 0;  ///< of data and settings
 
     [[nodiscard]] std::vector<double> start() const;
 };
@@ -67,11 +74,19 @@ struct TunableProblem {
 [[nodiscard]] Result<PipelineConfig> withCandidate(const TunableProblem& problem, PipelineConfig config,
                                                    std::span<const double> candidate);
 
-/// What the configured method has to tune on this survey. aukf: the nine process noises of paper 000, eq 12,
-/// and with `hyperparameters` alpha, beta and kappa as well, over the fixed-point runs.
-/// Errors: Usage for a method without tunable parameters; BadData for a survey without data to tune on.
+/// What the configured method has to tune on this survey.
+///
+/// aukf: the nine process noises of paper 000, eq 12, and with `hyperparameters` alpha, beta and kappa as
+/// well; loss over the fixed-point runs.
+///
+/// Other filters: factors on the sigmas and correlation times of their sensors; loss at the control marks,
+/// each while the estimator knows nothing of it. A survey whose runs stand on no control mark but ZERO is
+/// tuned on where its passes meet, with an estimator that is not told that they do.
+///
+/// Errors: Usage for raw, and for `hyperparameters` where there are none; BadData for a survey without data
+/// to tune on; as fuseSurvey(); Cancelled.
 [[nodiscard]] Result<TunableProblem> tunableProblem(const Survey& survey, const PipelineConfig& config,
-                                                    bool hyperparameters);
+                                                    bool hyperparameters, const std::stop_token& stop);
 
 /// Decided by everything that fusion reads of a survey.
 [[nodiscard]] std::uint64_t surveyFingerprint(const Survey& survey);

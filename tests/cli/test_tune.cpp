@@ -131,7 +131,7 @@ TEST(Tune, WrongRequestsAreRefusedWithTheirCure) {
     EXPECT_EQ(refused({"--optimizer", "magic"}).exit_code, 2);
     EXPECT_EQ(refused({"--parameters", "10"}).exit_code, 2);
     EXPECT_EQ(refused({"--population", "3"}).exit_code, 2);
-    const auto method = refused({"--method", "ukf"});
+    const auto method = refused({"--method", "raw"});
     EXPECT_EQ(method.exit_code, 2);
     EXPECT_THAT(method.err, HasSubstr("--method"));
     const auto nothing_kept = refused({"--resume"});

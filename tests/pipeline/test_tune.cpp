@@ -45,7 +45,8 @@ TunableProblem madeProblem(std::size_t dimensions, std::size_t parts,
     }
     for (std::size_t i = 0; i < parts; ++i) problem.parts.push_back({"part " + std::to_string(i), ""});
     problem.losses = [dimensions, loss](std::span<const double> candidates,
-                                        std::span<const std::size_t> chosen, std::span<double> losses) {
+                                        std::span<const std::size_t> chosen, std::span<double> losses,
+                                        const std::stop_token&) {
         for (std::size_t c = 0; c < candidates.size() / dimensions; ++c) {
             double sum = 0.0;
             for (const std::size_t part : chosen) {
@@ -229,8 +230,8 @@ TEST_P(Resume, EndsWithTheSameBitsAndEvaluatesNothingTwice) {
     std::atomic<std::size_t> evaluated = 0;
     TunableProblem counting = whole;
     counting.losses = [&](std::span<const double> candidates, std::span<const std::size_t> parts,
-                          std::span<double> losses) {
-        whole.losses(candidates, parts, losses);
+                          std::span<double> losses, const std::stop_token& stop) {
+        whole.losses(candidates, parts, losses, stop);
         evaluated += candidates.size() / 3;
     };
     const std::string uninterrupted = tuneFileText(tuned(counting, small(GetParam())), "made");
@@ -349,7 +350,7 @@ PipelineConfig aukf() {
 
 TEST(TunableProblem, OfThePapersFilterIsItsFixedPointLoss) {
     const SimulatedSurvey survey = simulated();
-    const auto problem = tunableProblem(survey.survey, aukf(), true);
+    const auto problem = tunableProblem(survey.survey, aukf(), true, {});
     ASSERT_TRUE(problem) << problem.error().text();
     const auto loss = FixedPointLoss::prepare(survey.survey, aukf().fusion);
     ASSERT_TRUE(loss);
@@ -361,7 +362,7 @@ TEST(TunableProblem, OfThePapersFilterIsItsFixedPointLoss) {
     candidate[11] = 1.0;
     std::vector<double> losses(2);
     const std::vector<std::size_t> chosen{0, 2};
-    problem->losses(candidate, chosen, losses);
+    problem->losses(candidate, chosen, losses, {});
     const auto each = loss->runLosses(candidate);
     EXPECT_DOUBLE_EQ(losses[0], each[0].horizontal_m2 + each[2].horizontal_m2);
     EXPECT_DOUBLE_EQ(losses[1], each[0].vertical_m2 + each[2].vertical_m2);
@@ -374,23 +375,28 @@ TEST(TunableProblem, OfThePapersFilterIsItsFixedPointLoss) {
 }
 
 TEST(TunableProblem, SaysWhyThereIsNone) {
-    const auto other = tunableProblem(simulated().survey, {}, false);
+    PipelineConfig raw;
+    raw.fusion.method = FusionMethod::Raw;
+    const auto other = tunableProblem(simulated().survey, raw, false, {});
     ASSERT_FALSE(other);
     EXPECT_EQ(other.error().kind, ErrorKind::Usage);
-    const auto without = tunableProblem(simulated(0).survey, aukf(), false);
+    PipelineConfig ukf;
+    ukf.fusion.method = FusionMethod::Ukf;
+    EXPECT_FALSE(tunableProblem(simulated().survey, ukf, true, {}));
+    const auto without = tunableProblem(simulated(0).survey, aukf(), false, {});
     ASSERT_FALSE(without);
     EXPECT_EQ(without.error().kind, ErrorKind::BadData);
     EXPECT_THAT(without.error().cure, HasSubstr("fixed"));
     // Check marks are for testing alone.
     SimulatedSurvey checks = simulated();
     for (ControlMark& mark : checks.survey.marks) mark.role = MarkRole::Check;
-    EXPECT_FALSE(tunableProblem(checks.survey, aukf(), false));
+    EXPECT_FALSE(tunableProblem(checks.survey, aukf(), false, {}));
 }
 
 TEST(TunableProblem, TheFingerprintFollowsDataAndConfiguration) {
     const Survey survey = simulated().survey;
     const auto print = [&](const Survey& of, const PipelineConfig& config) {
-        return tunableProblem(of, config, false)->fingerprint;
+        return tunableProblem(of, config, false, {})->fingerprint;
     };
     const std::uint64_t own = print(survey, aukf());
     EXPECT_EQ(print(survey, aukf()), own);
@@ -552,7 +558,7 @@ TEST(Process, MarksThatWereTunedOnCertifyNothing) {
 TEST(TunedWhereBetter, TakesTheTunedValuesOnlyWhereTheyHoldOutBetter) {
     const Survey survey = simulated(3, 0).survey;
     SilentProgress silent;
-    const auto problem = tunableProblem(survey, aukf(), false);
+    const auto problem = tunableProblem(survey, aukf(), false, {});
     ASSERT_TRUE(problem);
     // Filters that are far too stiff or far too loose: the first is easily improved on all runs.
     for (const double noise : {10.0, 1e-8}) {
@@ -561,7 +567,7 @@ TEST(TunedWhereBetter, TakesTheTunedValuesOnlyWhereTheyHoldOutBetter) {
             ASSERT_TRUE(applySetting(
                 config, "fusion.aukf.noise.position_" + std::string(axis) + "_m2=" + std::to_string(noise)));
         }
-        const auto outcome = tune(*tunableProblem(survey, config, false), config, small(), silent, {});
+        const auto outcome = tune(*tunableProblem(survey, config, false, {}), config, small(), silent, {});
         ASSERT_TRUE(outcome);
         const auto chosen = tunedWhereBetter(survey, config, small(), silent, {});
         ASSERT_TRUE(chosen);

@@ -149,7 +149,7 @@ Result<ExperimentReport> runFig14(const ExperimentOptions& options, Progress& pr
         return std::get<double>(report.summary.rows[m][1]);
     };
     report.notes = {
-        fmt::format("{} surveys, seeds {} to {}: area walk of {} epochs, {} fixed-point runs that the tuned "
+        fmt::format("surveys: {}, seeds {} to {}: area walk of {} epochs, {} fixed-point runs that the tuned "
                     "filters are tuned on (ISMA, population {}, {} evaluations), faults mild, GNSS single "
                     "point",
                     surveys, first_seed, first_seed + surveys - 1, SimulationOptions{}.area_epochs,
