@@ -139,7 +139,7 @@ inline void advanceAxis(Gaussian<V, N>& s, int v, int p, int a, double dt, doubl
     s.at(v, a) = Tva;
 }
 
-/// States of e and n; v stands first (see StateBlock).
+/// States of e (even) and n (odd); v stands first (see StateBlock).
 enum Plan : int { kVe, kVn, kPe, kPn, kAe, kAn };
 /// States of u.
 enum Height : int { kVu, kPu, kAu };
@@ -150,9 +150,11 @@ inline void predict(Gaussian<V, 6>& plan, Gaussian<V, 3>& height, const V* noise
     const double half_dt2 = 0.5 * dt * dt;
     advanceAxis(plan, kVe, kPe, kAe, dt, half_dt2);
     advanceAxis(plan, kVn, kPn, kAn, dt, half_dt2);
-    for (const int n : {kVn, kPn, kAn})
+    // Between the axes: columns by the motion of e, rows by that of n. No list of indices to loop over: its
+    // begin() would be a function that units share.
+    for (int n = kVn; n <= kAn; n += 2)
         advance(dt, half_dt2, plan.at(kVe, n), plan.at(kPe, n), plan.at(kAe, n));
-    for (const int e : {kVe, kPe, kAe})
+    for (int e = kVe; e <= kAe; e += 2)
         advance(dt, half_dt2, plan.at(e, kVn), plan.at(e, kPn), plan.at(e, kAn));
     advanceAxis(height, kVu, kPu, kAu, dt, half_dt2);
     for (int block = 0; block < 3; ++block) {

@@ -24,17 +24,19 @@ struct FilteredRun {
 
 /// Takes measurements through the filter that the options name: forward only, no gate, no smoother. Each
 /// epoch is one prediction (Q once) and one update with the rows that are present; S holds R. The yaw row is
-/// left out while the predicted speed is below its threshold. Full matrices, all sigma points: the reference
-/// for the kernels of fusion/batch_filter.hpp.
+/// left out while the predicted speed is below its threshold. Full matrices and all sigma points: the
+/// reference for the kernels of fusion/batch_filter.hpp.
 ///
 /// - Ekf: Jacobian of the yaw row.
-/// - Ukf, Ckf: 19 sigma points (18 with weight), drawn anew for the measurement; source: paper 000, eqs 7-20,
-///   mended as the estimate of the whole says (weights that sum to one, Cholesky columns, R in S, one
-///   prediction).
-/// - SquareRootUkf: the same with Cholesky factors instead of covariances (van der Merwe and Wan 2001).
+/// - Ukf: 19 sigma points, drawn anew for the measurement. Source: paper 000, eqs 7-20, with what its print
+///   lacks: weights that sum to one, columns of a Cholesky factor, R in S, the inverse of S in the gain, one
+///   prediction for each step instead of two. Sums as in unscentedTransform().
+/// - Ckf: the same with the points of the cubature rule (Arasaratnam and Haykin 2009).
+/// - SquareRootUkf: the Ukf with Cholesky factors instead of covariances (van der Merwe and Wan 2001).
 /// - AdaptiveUkf: rows one after another, each with its own measurement noise, which follows the innovations:
-///   rho = nu^2 - H P H' held between R_min and R_max; source: paper 004, eqs 26-29, with (28)'s minus sign
-///   and (29)'s middle branch put right. The yaw row comes first, linearised by the unscented transform.
+///   rho = nu^2 - H P H' held between R_min and R_max. Source: paper 004, eqs 26-29, with the minus sign that
+///   (28) lacks and rho itself between the bounds of (29). The yaw row comes first, linearised by the
+///   unscented transform. Its NIS are of each row by itself, after the rows before it.
 ///
 /// Errors: BadData when the state or its covariance is no longer finite; Cancelled. Pure; safe from any
 /// thread.

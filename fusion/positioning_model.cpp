@@ -93,7 +93,7 @@ class LogMeasurer {
         if (!position) return;
         const GnssQuality quality = gnssQuality(log_, i, options_.gnss);
         if (!quality.rejection.empty()) {
-            ledger_.reject(Sensor::GnssPosition, quality.rejection);
+            if (options_.gnss.use_position) ledger_.reject(Sensor::GnssPosition, quality.rejection);
             return;
         }
         near_enu_m_.head<2>() = position->enu_m.head<2>();

@@ -371,7 +371,8 @@ ExperimentTable consistencyTable(const MethodComparison& comparison) {
         for (const std::string& name : sensors) {
             const auto found = std::find_if(outcome.consistency.begin(), outcome.consistency.end(),
                                             [&](const SensorConsistency& s) { return s.sensor == name; });
-            row.push_back(found == outcome.consistency.end() ? Cell{} : Cell{found->mean_nis / found->dof});
+            row.emplace_back();
+            if (found != outcome.consistency.end()) row.back() = found->mean_nis / found->dof;
         }
     }
     return table;

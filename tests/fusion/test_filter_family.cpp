@@ -110,6 +110,23 @@ TEST(PositioningModel, LeavesOutWhatIsMissing) {
     EXPECT_EQ(run.epochs[44].present, 0x1FF);
 }
 
+// The height row is never left without a source.
+TEST(PositioningModel, FindsAnotherHeightWhereThereIsNoBarometer) {
+    constexpr auto kUp = static_cast<std::size_t>(MeasurementRow::BarometerUp);
+    MadeOptions made_options;
+    made_options.errors = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    MadeRun made = makeRun(made_options);
+    made.erase(Channel::Pressure);
+    const MeasuredRun by_gnss = measured(made.survey, made.run(), {});
+    EXPECT_EQ(by_gnss.sensors[kUp], Sensor::GnssHeight);
+    EXPECT_NEAR(by_gnss.epochs[100].z[kUp], made.position_enu_m[100].z(), 1e-6);
+    made.erase(Channel::EllipsoidalHeight);
+    const MeasuredRun assumed = measured(made.survey, made.run(), {});
+    EXPECT_EQ(assumed.sensors[kUp], Sensor::HeightAssumption);
+    EXPECT_NEAR(assumed.epochs[100].z[kUp], made.position_enu_m[0].z(), 1e-6);
+    EXPECT_GE(assumed.epochs[100].variance[kUp], 1.0);
+}
+
 TEST(PositioningModel, TakesTheMountOffsetFromTheYaw) {
     FusionOptions options;
     options.aukf.yaw_row.mount_offset_deg = 20.0;
