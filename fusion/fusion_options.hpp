@@ -24,6 +24,10 @@ inline constexpr std::array<std::pair<FusionMethod, std::string_view>, 4> kFusio
      {FusionMethod::Aukf, "aukf"},
      {FusionMethod::Terrawalk, "terrawalk"}}};
 
+[[nodiscard]] constexpr std::string_view name(FusionMethod method) {
+    return kFusionMethodNames[static_cast<std::size_t>(method)].second;
+}
+
 /// Whether a method ties the track to the control marks that a run stands on after its start.
 [[nodiscard]] constexpr bool tiesToMarks(FusionMethod method) {
     return method != FusionMethod::Raw && method != FusionMethod::Aukf;

@@ -302,7 +302,7 @@ std::string residualTable(const SurveyReport& report) {
                 metresCell(r.difference_enu_m.x()) + metresCell(r.difference_enu_m.y()) +
                 metresCell(r.difference_enu_m.z()) + metresCell(r.sigma_enu_m.z()) +
                 cell(Cell::Number, signedSigma(r, 2)) +
-                cell(Cell::Text, r.used_by_estimator ? "no, tied" : "yes") + "</tr>\n";
+                cell(Cell::Text, r.used_by_estimator ? "no, used" : "yes") + "</tr>\n";
     }
     if (rows.empty()) return {};
     return table({{"Mark"},
@@ -548,6 +548,29 @@ std::string sensorSection(const SurveyReport& report) {
     return out + folded("Run by run", table(headings, bodies));
 }
 
+// ---------------------------------------------------------------------------------------------- tuning
+
+std::string tuningSection(const SurveyReport& report) {
+    if (!report.tuning) return {};
+    const TuningRecord& t = *report.tuning;
+    std::string rows =
+        pairRow("Tuned values", t.in_use ? "used for this product" : "not used") +
+        pairRow("Method", t.method) + pairRow("Tuned on the survey", t.survey) + pairRow("By", t.program) +
+        pairRow("Search", fmt::format("{}, population {}, {} iterations, seed {}", t.optimiser, t.population,
+                                      t.iterations, t.seed)) +
+        pairRow("Evaluations, in all", groupedDigits(t.evaluations)) + pairRow("Loss", t.loss) +
+        pairRow("Loss before and after", fmt::format("{:.5g} \u2192 {:.5g}", t.loss_before, t.loss_after));
+    if (t.left_out_before && t.left_out_after) {
+        rows += pairRow("The same on parts left out of the tuning",
+                        fmt::format("{:.5g} \u2192 {:.5g}", *t.left_out_before, *t.left_out_after));
+    }
+    std::vector<std::string> marks;
+    for (const ControlMark& mark : t.marks) marks.push_back(mark.name);
+    rows += pairRow("Marks tuned on", fmt::format("{}", fmt::join(marks, ", ")));
+    return note(t.decision) + "<div class=\"scroll\"><table>\n" + tableBody(rows) + "</table></div>\n" +
+           bullets(t.warnings);
+}
+
 // ---------------------------------------------------------------------------------------------- record
 
 std::string settingsTable(const SurveyReport& report) {
@@ -598,6 +621,7 @@ std::string reportHtml(const SurveyReport& report) {
     out += section("surface", "Terrain model", surfaceSection(report));
     out += section("runs", "Runs", runSection(report));
     out += section("sensors", "Use of the sensors", sensorSection(report));
+    out += section("tuning", "Tuning", tuningSection(report));
     out += section("record", "Record", recordSection(report));
     out +=
         "</main>\n<footer>Made by Terrawalk from the files listed above. The same figures stand in "

@@ -13,10 +13,13 @@
 #include "app/cli/interrupt.hpp"
 #include "app/cli/simulate_options.hpp"
 #include "app/cli/terminal_progress.hpp"
+#include "app/cli/tune_options.hpp"
 #include "app/pipeline/compare.hpp"
 #include "app/pipeline/experiment.hpp"
 #include "app/pipeline/jobs.hpp"
 #include "app/pipeline/json_output.hpp"
+#include "app/pipeline/tune_file.hpp"
+#include "app/pipeline/tune_jobs.hpp"
 #include "app/pipeline/version.hpp"
 
 namespace terrawalk {
@@ -54,6 +57,13 @@ struct ProcessArguments {
     std::vector<std::string> settings;
     std::optional<std::string> method;
     std::optional<std::uint64_t> seed;
+    bool tune = false;
+    TuneOptions tuning;
+};
+
+struct TuneArguments {
+    ProcessArguments survey_and_configuration;
+    TuneFiles files;
 };
 
 struct SimulateArguments {
@@ -137,6 +147,11 @@ Provenance provenanceOf(const std::string& command, const ProcessArguments& argu
     for (const std::string& setting : arguments.settings) add("--set", setting);
     if (arguments.method) add("--method", *arguments.method);
     if (arguments.seed) add("--seed", std::to_string(*arguments.seed));
+    if (arguments.tune) {
+        provenance.command.emplace_back("--tune");
+        const std::vector<std::string> options = tuneArguments(arguments.tuning);
+        provenance.command.insert(provenance.command.end(), options.begin(), options.end());
+    }
     return provenance;
 }
 
@@ -144,14 +159,40 @@ int runProcess(const ProcessArguments& arguments, const Common& common, Terminal
                const std::stop_token& stop) {
     const auto config = configuration(arguments);
     if (!config) return fail(config.error(), common, progress);
+    std::optional<TuneOptions> tuning;
+    if (arguments.tune) {
+        tuning = arguments.tuning;
+        tuning->seed = config->seed;
+    }
     const auto products = processSurvey(arguments.survey, *config, provenanceOf("process", arguments),
-                                        arguments.output, progress, stop);
+                                        arguments.output, progress, stop, tuning);
     if (!products) return fail(products.error(), common, progress);
     progress.clear();
     if (common.json) {
         fmt::print("{}", summaryJson(*products, arguments.output));
     } else if (!common.quiet) {
         fmt::print("Written to {}\n{}", printable(arguments.output.string()), summaryText(*products));
+    }
+    return 0;
+}
+
+int runTune(TuneArguments& arguments, const Common& common, TerminalProgress& progress,
+            const std::stop_token& stop) {
+    ProcessArguments& asked = arguments.survey_and_configuration;
+    if (!asked.method) asked.method = "aukf";
+    const auto config = configuration(asked);
+    if (!config) return fail(config.error(), common, progress);
+    asked.tuning.seed = config->seed;
+    const auto tuned = tuneSurvey(asked.survey, *config, asked.tuning, arguments.files, progress, stop);
+    if (!tuned) return fail(tuned.error(), common, progress);
+    progress.clear();
+    const std::string file = arguments.files.output.string();
+    if (common.json) {
+        fmt::print("{}", toJson(tuned->outcome, tuned->survey, arguments.files.output));
+    } else if (!common.quiet) {
+        fmt::print("{}Written to {}\nUse it with: terrawalk process {} --config {} -o out\n",
+                   toText(tuned->outcome), printable(file), printable(asked.survey.string()),
+                   printable(file));
     }
     return 0;
 }
@@ -265,7 +306,28 @@ int run(int argc, char** argv) {
     process_command->add_option("-o,--output", process.output, "Folder for the products")
         ->capture_default_str();
     addConfiguration(*process_command, process);
+    CLI::Option* tune_first = process_command->add_flag(
+        "--tune", process.tune,
+        "Tune the method on the survey's own marks first; the tuned values are used where they do better on "
+        "marks left out");
+    for (CLI::Option* option : addTuneOptions(*process_command, process.tuning)) option->needs(tune_first);
     addCommon(*process_command, common);
+
+    TuneArguments tune;
+    CLI::App* tune_command =
+        app.add_subcommand("tune", "Find a method's parameters on the survey's own marks");
+    tune_command
+        ->add_option("survey", tune.survey_and_configuration.survey,
+                     "survey.json, or the folder that holds it")
+        ->required();
+    tune_command->add_option("-o,--output", tune.files.output, "File for the parameters")
+        ->capture_default_str();
+    addTuneOptions(*tune_command, tune.survey_and_configuration.tuning);
+    tune_command->add_flag("--resume", tune.files.resume, "Go on where an interrupted tuning stopped");
+    tune_command->add_option("--checkpoint", tune.files.checkpoint,
+                             "File that keeps the work of an interrupted tuning [OUTPUT.checkpoint]");
+    addConfiguration(*tune_command, tune.survey_and_configuration);
+    addCommon(*tune_command, common);
 
     ProcessArguments compare;
     compare.output.clear();
@@ -327,6 +389,7 @@ int run(int argc, char** argv) {
     if (common.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, common.threads);
     TerminalProgress progress(common.quiet);
     if (process_command->parsed()) return runProcess(process, common, progress, interrupt.token());
+    if (tune_command->parsed()) return runTune(tune, common, progress, interrupt.token());
     if (compare_command->parsed()) return runCompare(compare, common, progress, interrupt.token());
     if (inspect_command->parsed()) return runInspect(inspected, common, progress, interrupt.token());
     if (simulate_command->parsed()) return runSimulate(simulate, common, progress, interrupt.token());

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/pipeline/tune_json.hpp"
 #include "survey/frames.hpp"
 
 namespace terrawalk {
@@ -603,10 +604,24 @@ std::string shortText(const ordered_json& value) {
     return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+Result<void> applyTuning(PipelineConfig& config, const json& section) {
+    try {
+        config.tuning = tuningOf(section);
+    } catch (const json::exception&) {
+        return usageError("the section \"tuning\" is not as `terrawalk tune` writes it",
+                          "leave it as it was, or out");
+    }
+    return {};
+}
+
 // {"fusion": {"gnss": {"x": 1}}} sets "fusion.gnss.x".
 Result<void> applyObject(PipelineConfig& config, const json& object, const std::string& prefix) {
     for (const auto& [key, value] : object.items()) {
         const std::string path = prefix.empty() ? key : prefix + "." + key;
+        if (path == "tuning") {
+            if (auto done = applyTuning(config, value); !done) return done;
+            continue;
+        }
         // No key is longer than an assignment on a command line: what nests deeper is no configuration of
         // ours.
         if (value.is_object() && path.size() < 100) {
@@ -685,7 +700,8 @@ std::string toJson(const PipelineConfig& config) {
         std::replace(pointer.begin(), pointer.end(), '.', '/');
         document[ordered_json::json_pointer(pointer)] = p.get(config);
     }
-    return document.dump(2) + "\n";
+    if (config.tuning) document["tuning"] = tuningJson(*config.tuning);
+    return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::vector<UsedSetting> settingsReport(const PipelineConfig& requested, const PipelineConfig& used) {

@@ -18,6 +18,12 @@ namespace {
 constexpr std::array kExperiments{
     Experiment{"fig7", "Paper 000, Fig 7: convergence of optimisers on classical functions", runFig7},
     Experiment{"fig8", "Paper 000, Fig 8: evenness of initial populations", runFig8},
+    Experiment{"fig10", "Paper 000, Fig 10: loss by tuner, nine process noises", runFig10},
+    Experiment{"fig11", "Paper 000, Fig 11: loss by tuner, alpha, beta and kappa as well", runFig11},
+    Experiment{"fig12", "Paper 000, Fig 12: loss by population and iterations", runFig12},
+    Experiment{"fig13", "Paper 000, Fig 13: time and evaluations by tuner", runFig13},
+    Experiment{"fig14", "Paper 000, Fig 14: height error of raw, untuned and tuned surfaces", runFig14},
+    Experiment{"fig15", "Paper 000, Fig 15: five points, each walked to ten times", runFig15},
     Experiment{"accuracy", "Simulated surveys against their truth, by level of faults", runAccuracy},
     Experiment{"outage", "GNSS masked for 10, 30 and 60 s in a survey's logs, or in a simulated walk's",
                runOutage, true},

@@ -289,6 +289,22 @@ Result<Comparison> compareBeforeFusion(const Survey& survey, const PipelineConfi
     return comparison;
 }
 
+/// Marks that the parameters were tuned on are no test of what came out. Another survey's mark of the same
+/// name is another mark.
+void markTunedOn(const Survey& survey, const TuningRecord& tuning, std::vector<Residual>& residuals) {
+    constexpr double kSameMark_m = 0.001;
+    std::set<std::string> tuned_on;
+    for (const ControlMark& mark : tuning.marks) {
+        const auto own = survey.findMark(mark.name);
+        if (own && (own->enu_m - mark.enu_m).norm() < kSameMark_m) tuned_on.insert(mark.name);
+    }
+    for (Residual& residual : residuals) {
+        if (residual.stage != Stage::BeforeFusion && tuned_on.contains(residual.mark)) {
+            residual.used_by_estimator = true;
+        }
+    }
+}
+
 std::string filterName(FilterKind filter) {
     switch (filter) {
         case FilterKind::Ekf:
@@ -380,6 +396,8 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     }
     report.marks = survey.marks;
     report.residuals = std::move(comparison->residuals);
+    report.tuning = config.tuning;
+    if (config.tuning && config.tuning->in_use) markTunedOn(survey, *config.tuning, report.residuals);
     report.missing_residuals = std::move(comparison->missing);
     auto relief = reliefPicture(tin, *projection, products.ground_points);
     if (!relief) return tl::unexpected(relief.error());

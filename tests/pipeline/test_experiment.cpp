@@ -17,7 +17,7 @@ using test::bytesOf;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
-constexpr ExperimentOptions kQuick{.quick = true, .seed = 3};
+const ExperimentOptions kQuick{.quick = true, .seed = 3};
 
 ExperimentReport quickReport(std::string_view name, const std::filesystem::path& output,
                              const ExperimentOptions& options = kQuick) {
