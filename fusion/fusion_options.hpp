@@ -279,7 +279,7 @@ struct AukfOptions {
 /// Every parameter of fusion. All sigmas are 1 sigma. Defaults were chosen on simulated surveys (seeds 1 to 3
 /// at three levels of faults) for small errors and for sigmas that own up to them.
 struct FusionOptions {
-    FusionMethod method = FusionMethod::Ukf;
+    FusionMethod method = FusionMethod::Terrawalk;
     bool smooth = true;  ///< Rauch-Tung-Striebel pass after the filter
     StandOptions stands;
     UnscentedOptions unscented;

@@ -231,7 +231,7 @@ class JointAdjuster {
 
     Result<JointSolution> adjust() {
         JointSolution result;
-        result.unknowns = unknowns_;
+        result.summary.unknowns = unknowns_;
         std::vector<RowGroup> groups = rowGroups(true);
         std::optional<SparseLeastSquares> before;
         const int last = 1 + options_.joint.rounds;
@@ -241,9 +241,10 @@ class JointAdjuster {
             const bool robust = round > 0;
             const bool with_pairs = options_.joint.use_crossovers && round > 1;
             if (options_.joint.use_crossovers && (round == 0 || with_pairs)) findPairs();
-            if (round == 0) result.misfit_before_m = misfit();
+            if (round == 0) result.summary.misfit_before_m = misfit();
             SparseLeastSquares system(unknowns_, robust ? groups : rowGroups(false));
             addRows(system, with_pairs);
+            if (stop_.stop_requested()) return cancelled();
             wantCovariances(system);
             // With other crossovers another order of elimination is good.
             if (before && !with_pairs) system.continueFrom(*before);
@@ -254,6 +255,7 @@ class JointAdjuster {
             }
             takeSolution(*solution);
             takePlanVariances(system);
+            if (round == 1) height_inflation_ = heightInflation(system);
             const bool adapts = options_.joint.adapt_noise && round > 0 && round < last;
             if (adapts || round == last) {
                 const std::vector<GroupStatistics> statistics = system.statistics(*solution);
@@ -262,18 +264,21 @@ class JointAdjuster {
                 if (round == last) {
                     for (std::size_t g = 0; g < groups.size(); ++g) {
                         if (statistics[g].rows == 0) continue;
-                        result.noise.push_back({groups[g].name, statistics[g].rows, statistics[g].redundancy,
-                                                groups[g].scale, statistics[g].down_weighted});
+                        result.summary.noise.push_back({groups[g].name, statistics[g].rows,
+                                                        statistics[g].redundancy, groups[g].scale,
+                                                        statistics[g].down_weighted});
                     }
                     for (const RunModel& run : runs_) result.trajectories.push_back(trajectory(run, system));
                 }
             }
             before.emplace(std::move(system));
         }
+        result.summary.height_inflation = height_inflation_;
         if (options_.joint.use_crossovers) {
             findPairs();
-            result.misfit_after_m = misfit();
+            result.summary.misfit_after_m = misfit();
             result.crossovers = pairs_;
+            result.summary.crossovers = pairs_.size();
         }
         return result;
     }
@@ -1132,6 +1137,41 @@ class JointAdjuster {
         }
     }
 
+    // Before the crossovers are used they test the track: squared misfits over what its covariance predicts.
+    // Passes close in time share their errors, so they do not count.
+    double heightInflation(SparseLeastSquares& system) {
+        constexpr double kApart_s = 120.0;
+        constexpr double kOutlier = 25.0;
+        constexpr std::size_t kFewest = 30;
+        constexpr double kGreatest = 4.0;
+        if (!options_.joint.use_crossovers) return 1.0;
+        findPairs();
+        double sum = 0.0;
+        std::size_t n = 0;
+        const auto heightVariance = [&](std::uint32_t run, std::uint32_t epoch) {
+            const std::size_t u = runs_[run].correction.unknown(runs_[run].at[epoch].knot, 2);
+            return system.covariance(u, u);
+        };
+        for (const Crossover& pair : pairs_) {
+            const double apart_s =
+                std::abs(runs_[pair.run_a].time(pair.epoch_a) - runs_[pair.run_b].time(pair.epoch_b));
+            if (pair.run_a == pair.run_b && apart_s < kApart_s) continue;
+            const double plan =
+                planVariance(pair.run_a, pair.epoch_a) + planVariance(pair.run_b, pair.epoch_b);
+            const double own =
+                squared(pairSigma(pair.slope, pair.roughness_m, squared(pair.apart_m) + plan)) *
+                options_.joint.pair_weight;
+            const double predicted =
+                heightVariance(pair.run_a, pair.epoch_a) + heightVariance(pair.run_b, pair.epoch_b) + own;
+            sum += std::min(kOutlier, squared(pair.misfit_m) / predicted);
+            ++n;
+        }
+        if (n < kFewest) return 1.0;
+        // Crossovers bind a track more than they test it: what they leave is judged with a margin.
+        constexpr double kMargin = 1.4;
+        return std::clamp(kMargin * sum / static_cast<double>(n), 1.0, kGreatest);
+    }
+
     void wantCovariances(SparseLeastSquares& system) const {
         for (const RunModel& run : runs_) {
             for (std::size_t k = 0; k < run.correction.knots(); ++k) {
@@ -1177,7 +1217,10 @@ class JointAdjuster {
                                                       run.correction.unknown(next, b));
                 }
             }
-            const Eigen::Matrix3d p = g * g * here + f * f * there + g * f * (cross + cross.transpose());
+            Eigen::Matrix3d p = g * g * here + f * f * there + g * f * (cross + cross.transpose());
+            const Eigen::Vector3d inflate(std::sqrt(kPlanInflation), std::sqrt(kPlanInflation),
+                                          std::sqrt(height_inflation_));
+            p = inflate.asDiagonal() * p * inflate.asDiagonal();
             epoch.covariance.setZero();
             epoch.covariance.topLeftCorner<3, 3>() = p;
             epoch.covariance.bottomRightCorner<3, 3>() =
@@ -1193,6 +1236,10 @@ class JointAdjuster {
         return result;
     }
 
+    // What the covariance leaves out in plan (linear models, crossovers that share points), from simulated
+    // surveys at three levels of faults.
+    static constexpr double kPlanInflation = 1.25;
+
     const Survey& survey_;
     LocalFrame frame_;
     const FusionOptions& options_;
@@ -1201,6 +1248,7 @@ class JointAdjuster {
     std::vector<RunModel> runs_;
     Scalar iron_sin_, iron_cos_;
     std::size_t unknowns_ = 0;
+    double height_inflation_ = 1.0;
     std::vector<Crossover> pairs_;
     std::vector<MarkPass> mark_passes_;
     RowBuilder row_;
