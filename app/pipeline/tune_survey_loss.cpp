@@ -13,8 +13,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "app/pipeline/ground_track.hpp"
-#include "fusion/crossovers.hpp"
 #include "fusion/fuse_survey.hpp"
 #include "fusion/sensor_readings.hpp"
 #include "mapping/order_statistics.hpp"
@@ -187,85 +185,6 @@ std::optional<Measured> measuredAtMarks(const Survey& survey, const FusionOption
     return measured;
 }
 
-// ---------------------------------------------------------------------------- where passes meet
-
-constexpr std::size_t kPlaces = 8;
-constexpr std::size_t kFewestCrossovers = 5;  // in each part
-
-/// The field in squares of ten metres, dealt to the parts so that neighbours belong to different ones.
-std::size_t placeOf(const Eigen::Vector2d& at_m) {
-    const auto index = [](double x_m) {
-        return static_cast<long>(std::floor(x_m / 10.0));
-    };
-    const long mixed = index(at_m.x()) + 3 * index(at_m.y());
-    return static_cast<std::size_t>((mixed % static_cast<long>(kPlaces) + static_cast<long>(kPlaces)) %
-                                    static_cast<long>(kPlaces));
-}
-
-/// Sum of squared misfits in each part and their numbers, with misfits beyond a metre counted as one metre.
-struct Misfits {
-    std::array<double, kPlaces> squares_m2{};
-    std::array<std::size_t, kPlaces> counts{};
-};
-
-Misfits misfitsOf(const GroundTrack& track) {
-    constexpr double kMost_m2 = 1.0;
-    std::vector<GroundSample> samples;
-    for (const GroundPoint& point : track.points) {
-        if (point.state != GroundPointState::Used) continue;
-        samples.push_back({point.run, point.epoch, point.time_s, point.enu_m});
-    }
-    Misfits misfits;
-    for (const Crossover& crossover : findCrossovers(samples, CrossoverOptions{})) {
-        const std::size_t place = placeOf(crossover.place_m);
-        misfits.squares_m2[place] += std::min(squared(crossover.misfit_m), kMost_m2);
-        ++misfits.counts[place];
-    }
-    return misfits;
-}
-
-std::optional<Misfits> misfits(const Survey& survey, const FusionOptions& options,
-                               const GroundPointOptions& ground, const std::stop_token& stop) {
-    SilentProgress silent;
-    const auto track = trackGround(survey, options, ground, silent, stop);
-    if (!track) return std::nullopt;
-    return misfitsOf(*track);
-}
-
-std::optional<Measured> measuredAtCrossovers(const Survey& survey, const PipelineConfig& config,
-                                             const std::stop_token& stop) {
-    const auto before = misfits(survey, config.fusion, config.ground, stop);
-    if (!before) return std::nullopt;
-    std::vector<std::size_t> places;
-    for (std::size_t place = 0; place < kPlaces; ++place) {
-        if (before->counts[place] >= kFewestCrossovers) places.push_back(place);
-    }
-    if (places.size() < 2) return std::nullopt;
-    Measured measured;
-    for (const std::size_t place : places) {
-        measured.parts.push_back({fmt::format("crossovers, part {} of the field", place + 1), ""});
-    }
-    measured.loss_meaning =
-        "squared height difference between passes over the same ground, which the estimator was not told of, "
-        "as a share of what it was before";
-    measured.components = {"crossover misfit"};
-    measured.evaluate = [survey = std::make_shared<const Survey>(survey), ground = config.ground,
-                         before = *before, places](const FusionOptions& options,
-                                                   const std::stop_token& of) -> std::optional<PartLosses> {
-        const auto now = misfits(*survey, options, ground, of);
-        if (!now) return std::nullopt;
-        PartLosses losses;
-        for (const std::size_t place : places) {
-            const auto was = static_cast<double>(before.counts[place]);
-            const auto is = static_cast<double>(now->counts[place]);
-            // A track that is thrown off its own path meets itself less often; that is no gain.
-            losses.push_back(is < 0.5 * was ? kInfinity : now->squares_m2[place] / is * was);
-        }
-        return losses;
-    };
-    return measured;
-}
-
 // -------------------------------------------------------------------------------------- the problem
 
 /// Fuses for each new candidate and remembers what came out: searches over other parts begin with the same
@@ -311,26 +230,14 @@ std::vector<double> scalesOf(const PartLosses& before, std::size_t components) {
     return scales;
 }
 
-/// The estimator that crossovers test must not use them.
-PipelineConfig blindToCrossovers(PipelineConfig config) {
-    return config;
-}
-
 }  // namespace
 
-Result<TunableProblem> surveyProblem(const Survey& survey, const PipelineConfig& asked,
+Result<TunableProblem> surveyProblem(const Survey& survey, const PipelineConfig& config,
                                      const std::stop_token& stop) {
-    PipelineConfig config = asked;
-    auto measured = measuredAtMarks(survey, config.fusion);
+    const auto measured = measuredAtMarks(survey, config.fusion);
     if (!measured) {
-        config = blindToCrossovers(asked);
-        measured = measuredAtCrossovers(survey, config, stop);
-    }
-    if (stop.stop_requested()) return cancelled();
-    if (!measured) {
-        return badData("the survey has nothing to tune on", survey.project_file, 0,
-                       "stand on two control marks beside ZERO, in stops or at the ends of fixed-point runs, "
-                       "or cross your own path more often");
+        return badData("the survey stands on fewer than two control marks beside ZERO", survey.project_file,
+                       0, "stand on two or more, in stops or at the ends of fixed-point runs");
     }
     TunableProblem problem{.method = std::string(name(config.fusion.method)),
                            .loss_meaning = measured->loss_meaning,

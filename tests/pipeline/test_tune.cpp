@@ -414,6 +414,7 @@ TEST(TunableProblem, TheFingerprintFollowsDataAndConfiguration) {
 class TuneSurvey : public testing::Test {
   protected:
     TuneSurvey() {
+        std::filesystem::create_directories(scratch_ / "survey");
         const auto written = writeSurvey(simulated().survey, scratch_ / "survey");
         if (!written) throw std::runtime_error(written.error().text());
     }
