@@ -84,7 +84,8 @@ struct PlaneFit {
 
 // One slope, one height for each pass; hits on plants are held off by Huber weights.
 PlaneFit fitPlanes(std::span<const GroundSample> samples, const std::vector<std::uint32_t>& near,
-                   std::span<const Pass> passes, const Eigen::Vector2d& place_m, double ridge_m2) {
+                   std::span<const Pass> passes, const Eigen::Vector2d& place_m,
+                   const CrossoverOptions& options) {
     constexpr int kReweights = 3;
     constexpr double kHuber_m = 0.08;
     PlaneFit fit;
@@ -92,7 +93,7 @@ PlaneFit fitPlanes(std::span<const GroundSample> samples, const std::vector<std:
     for (int round = 0; round < kReweights; ++round) {
         Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
         Eigen::Vector4d right = Eigen::Vector4d::Zero();
-        normal(2, 2) = normal(3, 3) = ridge_m2;
+        normal(2, 2) = normal(3, 3) = options.ridge_m2;
         double squares = 0.0;
         double weights = 0.0;
         for (std::size_t p = 0; p < passes.size(); ++p) {
@@ -102,8 +103,11 @@ PlaneFit fitPlanes(std::span<const GroundSample> samples, const std::vector<std:
                 a[static_cast<Eigen::Index>(p)] = 1.0;
                 a.tail<2>() = at.head<2>() - place_m;
                 const double residual = at.z() - a.dot(x);
+                const double near_weight = std::exp(-0.5 * (at.head<2>() - place_m).squaredNorm() /
+                                                    (options.bandwidth_m * options.bandwidth_m));
                 const double weight =
-                    round == 0 ? 1.0 : std::min(1.0, kHuber_m / std::max(std::abs(residual), 1e-9));
+                    near_weight *
+                    (round == 0 ? 1.0 : std::min(1.0, kHuber_m / std::max(std::abs(residual), 1e-9)));
                 normal += weight * a * a.transpose();
                 right += weight * at.z() * a;
                 squares += weight * residual * residual;
@@ -184,7 +188,7 @@ std::vector<Crossover> findCrossovers(std::span<const GroundSample> samples,
             const std::size_t n_a = pair[0].last - pair[0].first;
             const std::size_t n_b = pair[1].last - pair[1].first;
             if (std::min(n_a, n_b) < options.fewest_points) continue;
-            const PlaneFit fit = fitPlanes(samples, ground, pair, crossover.place_m, options.ridge_m2);
+            const PlaneFit fit = fitPlanes(samples, ground, pair, crossover.place_m, options);
             crossover.run_a = a.run;
             crossover.epoch_a = a.epoch;
             crossover.run_b = b.run;
@@ -210,7 +214,7 @@ std::vector<MarkPass> findMarkPasses(std::span<const GroundSample> samples, cons
     const Eigen::Vector2d place_m = mark_enu_m.head<2>();
     for (const Pass& pass : passesIn(samples, near)) {
         if (pass.last - pass.first < options.fewest_points) continue;
-        const PlaneFit fit = fitPlanes(samples, near, std::span(&pass, 1), place_m, options.ridge_m2);
+        const PlaneFit fit = fitPlanes(samples, near, std::span(&pass, 1), place_m, options);
         const GroundSample& nearest = samples[nearestOf(samples, near, pass, place_m)];
         passes.push_back({nearest.run, nearest.epoch, fit.slope, fit.height_m[0] - mark_enu_m.z(),
                           (nearest.enu_m - mark_enu_m).head<2>().norm(), fit.roughness_m,

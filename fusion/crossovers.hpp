@@ -21,7 +21,8 @@ struct CrossoverOptions {
     double gate_m = 1.0;            ///< farthest apart in plan
     double radius_m = 1.0;          ///< of the ground about a place that is fitted
     double apart_s = 20.0;          ///< within a run, passes are at least so far apart in time
-    double ridge_m2 = 0.5;          ///< holds the slope back where the points do not tell it
+    double bandwidth_m = 0.5;       ///< of the weights that fall with the distance from the place
+    double ridge_m2 = 0.1;          ///< holds the slope back where the points do not tell it
     std::size_t fewest_points = 3;  ///< of each pass
 };
 

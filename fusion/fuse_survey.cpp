@@ -6,6 +6,8 @@
 #include <cstddef>
 
 #include "fusion/fuse_run.hpp"
+#include "fusion/joint_adjustment.hpp"
+#include "fusion/run_reference.hpp"
 
 namespace terrawalk {
 
@@ -46,6 +48,38 @@ class SideBySide {
     double weight_ = 0.0;
 };
 
+Result<FusedSurvey> adjusted(const Survey& survey, FusedSurvey fused, const FusionOptions& options,
+                             Progress& progress, std::stop_token stop) {
+    std::vector<RunStart> starts;
+    for (std::size_t i = 0; i < survey.runs.size(); ++i) {
+        RunStart start;
+        start.run = &survey.runs[i];
+        RunNotes again;
+        start.attitudes = epochAttitudes(start.run->log, options.attitude, again);
+        const auto reference = runReference(survey, *start.run, options, start.attitudes, again);
+        if (!reference) return tl::unexpected(reference.error());
+        start.reference = *reference;
+        start.trajectory = std::move(fused.runs[i].trajectory);
+        starts.push_back(std::move(start));
+    }
+    auto solution = adjustJointly(survey, starts, options, progress, stop);
+    for (std::size_t i = 0; i < survey.runs.size(); ++i) {
+        FusedRun& run = fused.runs[i];
+        run.trajectory = solution ? std::move(solution->trajectories[i]) : std::move(starts[i].trajectory);
+        if (!solution) {
+            run.notes.limitations.push_back(
+                "the adjustment of all runs has no solution: the tracks are those of the filter, crossovers "
+                "are not used");
+        }
+    }
+    if (solution) {
+        fused.adjustment = std::move(solution->summary);
+    } else if (solution.error().kind == ErrorKind::Cancelled) {
+        return tl::unexpected(solution.error());
+    }
+    return fused;
+}
+
 }  // namespace
 
 Result<FusedSurvey> fuseSurvey(const Survey& survey, const FusionOptions& options, Progress& progress,
@@ -63,6 +97,9 @@ Result<FusedSurvey> fuseSurvey(const Survey& survey, const FusionOptions& option
     for (Result<FusedRun>& run : fused) {
         if (!run) return tl::unexpected(run.error());
         result.runs.push_back(std::move(*run));
+    }
+    if (options.method == FusionMethod::Terrawalk) {
+        return adjusted(survey, std::move(result), options, progress, stop);
     }
     return result;
 }

@@ -5,19 +5,24 @@
 #include <string_view>
 #include <utility>
 
+#include "fusion/crossovers.hpp"
 #include "survey/mark_stands.hpp"
 
 namespace terrawalk {
 
 enum class FusionMethod {
-    Raw,   ///< sensors as they are: latest GNSS position, barometric height
-    Ukf,   ///< 9-state unscented Kalman filter with a Rauch-Tung-Striebel pass
-    Aukf,  ///< the method of paper 000 as it is: no gate, no smoother; `AukfOptions` name the filter
+    Raw,        ///< sensors as they are: latest GNSS position, barometric height
+    Ukf,        ///< 9-state unscented Kalman filter with a Rauch-Tung-Striebel pass
+    Aukf,       ///< the method of paper 000 as it is: no gate, no smoother; `AukfOptions` name the filter
+    Terrawalk,  ///< filter with error states, then one adjustment of all runs with their crossovers
 };
 
 /// The names that the command line and reports use.
-inline constexpr std::array<std::pair<FusionMethod, std::string_view>, 3> kFusionMethodNames{
-    {{FusionMethod::Raw, "raw"}, {FusionMethod::Ukf, "ukf"}, {FusionMethod::Aukf, "aukf"}}};
+inline constexpr std::array<std::pair<FusionMethod, std::string_view>, 4> kFusionMethodNames{
+    {{FusionMethod::Raw, "raw"},
+     {FusionMethod::Ukf, "ukf"},
+     {FusionMethod::Aukf, "aukf"},
+     {FusionMethod::Terrawalk, "terrawalk"}}};
 
 [[nodiscard]] constexpr std::string_view name(FusionMethod method) {
     return kFusionMethodNames[static_cast<std::size_t>(method)].second;
@@ -120,7 +125,7 @@ struct FlowOptions {
     bool bridge_dropouts = true;
     double bridge_after_s = 0.6;     ///< without a used reading [s]
     double bridge_longest_s = 10.0;  ///< since the last used reading; then the walk may be any other [s]
-    double bridge_sigma_mps = 0.3;   ///< of the stand-in, which errs in the same way for `bridge_memory_s`
+    double bridge_sigma_mps = 0.2;   ///< of the stand-in, which errs in the same way for `bridge_memory_s`
     double bridge_memory_s = 5.0;    ///< over which the mean is taken [s]
 };
 
@@ -182,6 +187,45 @@ struct DivergenceOptions {
     int fewest_rejected = 20;  ///< GNSS positions of the run beyond the gate before their share counts
 };
 
+/// Errors that last: the states of the filter and the unknowns of the adjustment that follow them.
+struct LastingErrorOptions {
+    double gnss_correlation_s = 100.0;    ///< of the position error; its sigma is that of the fix
+    double gnss_white_share = 0.25;       ///< white noise as a share of the sigma of the fix
+    double gnss_white_share_fixed = 0.5;  ///< the same for RTK fixed
+    double heading_sigma_deg = 3.0;       ///< compass error that wanders
+    double heading_correlation_s = 400.0;
+    double hard_iron_sigma_deg = 2.5;        ///< A sin yaw + B cos yaw, the same in all runs
+    double hard_iron_run_sigma_deg = 0.7;    ///< by which a run differs from that
+    double flow_scale_sigma = 0.1;           ///< constant in a run
+    double flow_axes_sigma = 0.05;           ///< half the difference of the scales of forward and left
+    double gyro_bias_sigma_dps = 2.0;        ///< constant in a run
+    double gyro_walk_deg_per_sqrt_s = 0.05;  ///< by which a turn summed up from the gyro errs
+};
+
+/// The joint adjustment of all runs.
+struct JointOptions {
+    double knot_s = 1.0;  ///< between the knots of the track's correction
+    double heading_knot_s = 4.0;
+    double gnss_knot_s = 4.0;
+    double barometer_knot_s = 10.0;
+    int rounds = 5;  ///< Gauss-Newton rounds with crossovers
+    bool use_crossovers = true;
+    bool adapt_noise = true;  ///< noise factors by variance components
+    CrossoverOptions crossovers;
+    /// Sigma of a misfit: pair_sigma_m + g / (g + pair_even_slope) (pair_uneven_m + pair_apart_per_m d^2),
+    /// with slope g and distance of the passes d, errors of the tracks counted in.
+    double pair_sigma_m = 0.025;
+    double pair_even_slope = 0.2;
+    double pair_uneven_m = 0.07;
+    double pair_apart_per_m = 0.35;
+    double pair_plan_share = 0.5;             ///< of the slope that turns errors of the plan into height
+    double pair_weight = 0.4;                 ///< neighbouring pairs share their points
+    double walk_mps_per_sqrt_s = 0.6;         ///< random walk of the horizontal velocity
+    double ground_roughness_m = 0.05;         ///< of the ground below the walk about its level
+    double ground_climb_m_per_sqrt_m = 0.06;  ///< by which that level wanders
+    double blind_climb_m_per_sqrt_s = 0.27;   ///< the same of the array where no range was measured
+};
+
 /// The filters that stand beside one another on the model of paper 000.
 enum class FilterKind {
     Ekf,            ///< first-order, Jacobian of the yaw row
@@ -235,7 +279,7 @@ struct AukfOptions {
 /// Every parameter of fusion. All sigmas are 1 sigma. Defaults were chosen on simulated surveys (seeds 1 to 3
 /// at three levels of faults) for small errors and for sigmas that own up to them.
 struct FusionOptions {
-    FusionMethod method = FusionMethod::Ukf;
+    FusionMethod method = FusionMethod::Terrawalk;
     bool smooth = true;  ///< Rauch-Tung-Striebel pass after the filter
     StandOptions stands;
     UnscentedOptions unscented;
@@ -249,6 +293,8 @@ struct FusionOptions {
     AttitudeOptions attitude;
     TieOptions ties;
     RobustOptions robust;
+    LastingErrorOptions lasting;
+    JointOptions joint;
     DivergenceOptions divergence;
     AukfOptions aukf;
 };

@@ -138,6 +138,16 @@ class ReferenceFinder {
         return median(std::move(heights));
     }
 
+    // Of a stand as a whole: the hand moves less than grass shortens single ranges.
+    double standHeight(const std::vector<std::size_t>& epochs, double median_m) const {
+        std::vector<double> heights;
+        for (const std::size_t i : epochs) {
+            const double height_m = heightAboveGround(log_, i, attitudes_[i].attitude, options_.ties);
+            if (std::abs(height_m - median_m) <= options_.ties.range_tolerance_m) heights.push_back(height_m);
+        }
+        return heightThroughGrass(heights);
+    }
+
     void tieToMarks() {
         for (const MarkStand& stand : markStands(survey_, run_, options_.stands)) {
             if (!stand.may_tie) continue;
@@ -164,6 +174,7 @@ class ReferenceFinder {
                             "to be {} m",
                             stand.mark.name, ties.assumed_height_m));
         }
+        const double through_grass_m = standHeight(epochs, median_m);
         // What all epochs of a stand share does not average out: it enters each of them times their number.
         const double n = static_cast<double>(epochs.size());
         const double shared_h = n * squared(stand.mark.sigma_h_m);
@@ -172,13 +183,13 @@ class ReferenceFinder {
         double before_s = -std::numeric_limits<double>::infinity();
         for (const std::size_t i : epochs) {
             const double own_m = heightAboveGround(log_, i, attitudes_[i].attitude, options_.ties);
-            const double height_m = measured ? own_m : ties.assumed_height_m;
+            const double height_m = measured ? through_grass_m : ties.assumed_height_m;
             const double factor = whiteNoiseFactor(ties.correlation_s, log_.time_s[i] - before_s);
             before_s = log_.time_s[i];
             MarkTie tie;
             tie.epoch = i;
             tie.has_height = !measured || std::abs(own_m - median_m) <= ties.range_tolerance_m;
-            tie.array_enu_m = stand.mark.enu_m + (tie.has_height ? height_m : 0.0) * Eigen::Vector3d::UnitZ();
+            tie.array_enu_m = stand.mark.enu_m + height_m * Eigen::Vector3d::UnitZ();
             const double h = factor * squared(ties.sigma_m) + shared_h;
             tie.variance_m2 << h, h, factor * squared(ties.range_sigma_m) + shared_v;
             reference_.ties.push_back(tie);

@@ -389,6 +389,22 @@ double heightAboveGround(const ArrayLog& log, std::size_t epoch, const Attitude&
     return -hit_enu.z();
 }
 
+double heightThroughGrass(std::vector<double>& heights_m) {
+    constexpr double kReach_m = 0.08;  // white noise of the finder, some 3 cm, lies within
+    if (heights_m.empty()) return kMissing;
+    const auto top = heights_m.begin() + static_cast<std::ptrdiff_t>((heights_m.size() * 9) / 10);
+    std::nth_element(heights_m.begin(), top, heights_m.end());
+    const double least_m = *top - kReach_m;
+    double sum = 0.0;
+    double n = 0.0;
+    for (const double h : heights_m) {
+        if (h < least_m || h > *top + kReach_m) continue;
+        sum += h;
+        n += 1.0;
+    }
+    return sum / n;
+}
+
 double whiteNoiseFactor(double correlation_s, double interval_s) {
     return std::max(1.0, 2.0 * correlation_s / interval_s);
 }

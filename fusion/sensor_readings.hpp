@@ -95,6 +95,11 @@ struct BarometerVariance {
 [[nodiscard]] double heightAboveGround(const ArrayLog& log, std::size_t epoch, const Attitude& attitude,
                                        const TieOptions& options);
 
+/// Height above the ground that these heights above whatever was hit tell: blades of grass and leaves only
+/// shorten a range, so it is the mean of those that reach nearly as far as the farthest tenth. Missing for
+/// none; the order is lost.
+[[nodiscard]] double heightThroughGrass(std::vector<double>& heights_m);
+
 /// One row of a reading. `variance` is what the filter may believe, errors of long memory counted as such;
 /// `gate_variance` is the sensor's own, by which outliers are judged.
 struct ReadingRow {

@@ -349,6 +349,40 @@ std::string pairRow(std::string_view what, std::string_view value) {
     return row(rowHead(what) + cell(Cell::Text, value));
 }
 
+std::string adjustmentSection(const std::optional<AdjustmentSummary>& adjustment) {
+    if (!adjustment) return "";
+    const AdjustmentSummary& a = *adjustment;
+    std::string rows;
+    rows += pairRow("Unknowns", groupedDigits(a.unknowns));
+    rows += pairRow("Crossovers",
+                    fmt::format("{} pairs of passes over the same ground", groupedDigits(a.crossovers)));
+    rows += pairRow("Their heights differ by",
+                    fmt::format("{} m RMS after the filter, {} m after the adjustment",
+                                metres3(a.misfit_before_m), metres3(a.misfit_after_m)));
+    rows +=
+        pairRow("Variance of heights",
+                a.height_inflation > 1.0
+                    ? fmt::format("multiplied by {}: crossovers differ by more than the filter's sigmas say",
+                                  fixedDecimals(a.height_inflation, 2))
+                    : "kept: crossovers agree with the sigmas");
+    std::string noise =
+        "<tr><th>Source of noise</th><th class=\"number\">Rows</th><th class=\"number\">Sigma "
+        "times</th><th class=\"number\">Down-weighted</th></tr>\n";
+    for (const NoiseFactor& n : a.noise) {
+        noise += fmt::format(
+            "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td "
+            "class=\"number\">{}</td></tr>\n",
+            escapedMarkup(n.source), groupedDigits(n.rows), fixedDecimals(n.factor, 2),
+            groupedDigits(n.down_weighted));
+    }
+    return "<div class=\"scroll\"><table>\n" + tableBody(rows) + "</table></div>\n" +
+           note(
+               "Sigma times: by what factor the survey's own residuals say that a sigma of the settings is "
+               "off. "
+               "1 where it was not estimated.") +
+           "<div class=\"scroll\"><table>\n" + noise + "</table></div>\n";
+}
+
 std::string surfaceSection(const SurveyReport& report) {
     const SurfaceReport& s = report.surface;
     std::string rows;
@@ -618,6 +652,9 @@ std::string reportHtml(const SurveyReport& report) {
     out += section("map", "Map of the walk", mapSection(report));
     out += section("errors", "Errors at the marks", errorSection(report));
     out += section("accuracy", "Accuracy", accuracySection(report));
+    if (report.adjustment) {
+        out += section("adjustment", "Adjustment of all runs", adjustmentSection(report.adjustment));
+    }
     out += section("surface", "Terrain model", surfaceSection(report));
     out += section("runs", "Runs", runSection(report));
     out += section("sensors", "Use of the sensors", sensorSection(report));

@@ -177,6 +177,25 @@ Json tuningJson(const std::optional<TuningRecord>& tuning) {
             {"marks", listOf(t.marks, [](const ControlMark& mark) { return mark.name; })}};
 }
 
+Json noiseJson(const NoiseFactor& n) {
+    return {{"source", n.source},
+            {"rows", n.rows},
+            {"redundancy", n.redundancy},
+            {"factor", n.factor},
+            {"down_weighted", n.down_weighted}};
+}
+
+Json adjustmentJson(const std::optional<AdjustmentSummary>& adjustment) {
+    if (!adjustment) return nullptr;
+    const AdjustmentSummary& a = *adjustment;
+    return {{"unknowns", a.unknowns},
+            {"crossovers", a.crossovers},
+            {"misfit_before_m", a.misfit_before_m},
+            {"misfit_after_m", a.misfit_after_m},
+            {"height_variance_inflation", a.height_inflation},
+            {"noise", listOf(a.noise, noiseJson)}};
+}
+
 Json inputJson(const InputFile& i) {
     return {{"path", i.path}, {"bytes", i.bytes}, {"sha256", i.sha256}};
 }
@@ -198,6 +217,7 @@ std::string reportJson(const SurveyReport& report) {
                     {"residuals", listOf(report.residuals, residualJson)},
                     {"missing_residuals", listOf(report.missing_residuals, missingJson)},
                     {"marks", listOf(report.marks, markJson)},
+                    {"adjustment", adjustmentJson(report.adjustment)},
                     {"surface", surfaceJson(report.surface)},
                     {"runs", listOf(report.runs, runJson)},
                     {"tuning", tuningJson(report.tuning)},

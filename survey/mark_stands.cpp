@@ -12,7 +12,8 @@ std::vector<MarkStand> markStands(const Survey& survey, const Run& run, const St
     const auto add = [&](StandPlace place, const std::string& point, double from_s, double to_s) {
         const auto mark = survey.findMark(point);
         if (!mark) return;
-        const bool measured_here = place == StandPlace::Target && run.kind == RunKind::FixedPoint;
+        const bool measured_here =
+            place == StandPlace::Target && run.kind == RunKind::FixedPoint && !options.tie_fixed_targets;
         stands.push_back({place, *mark, from_s, to_s, mark->role == MarkRole::Control && !measured_here});
     };
     if (run.start) add(StandPlace::Start, *run.start, first_s, std::min(first_s + options.start_s, last_s));

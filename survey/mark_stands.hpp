@@ -11,6 +11,9 @@ namespace terrawalk {
 struct StandOptions {
     double start_s = 2.5;   ///< first seconds of a run with a start mark
     double target_s = 1.6;  ///< last seconds of a run with a target mark
+    /// Whether the targets of fixed-point runs hold the estimator too. Then they certify nothing; without,
+    /// they show what such a run is walked for, how far off it ends.
+    bool tie_fixed_targets = true;
 };
 
 enum class StandPlace { Start, Stop, Target };
@@ -21,8 +24,8 @@ struct MarkStand {
     ControlMark mark;
     double from_s = 0.0;
     double to_s = 0.0;
-    /// Whether the estimator may be tied to it: never to a check mark, and never at the target of a
-    /// fixed-point run, whose error is what such a run is walked for.
+    /// Whether the estimator may be tied to it: never to a check mark, and to the target of a fixed-point run
+    /// only where the options say so.
     bool may_tie = false;
 };
 

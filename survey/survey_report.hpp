@@ -181,6 +181,7 @@ struct SurveyReport {
     std::vector<InputFile> inputs;
     std::vector<UsedSetting> settings;
     std::vector<RunReport> runs;
+    std::optional<AdjustmentSummary> adjustment;  ///< of all runs, by method terrawalk
     SurfaceReport surface;
     std::optional<TuningRecord> tuning;
     std::optional<ReliefPicture> relief;  ///< of the surface, under the map; not part of report.json

@@ -31,6 +31,17 @@ struct Comparison {
     }
 };
 
+/// Marks whose heights the estimator knew: the adjustment takes passes over any control mark, a filter only
+/// those it stood on.
+std::set<std::string> usedMarks(const Survey& survey, const FusionOptions& fusion) {
+    std::set<std::string> names = tiedMarks(survey, fusion.stands);
+    if (fusion.method != FusionMethod::Terrawalk || !fusion.joint.use_crossovers) return names;
+    for (const ControlMark& mark : survey.marks) {
+        if (mark.role == MarkRole::Control) names.insert(mark.name);
+    }
+    return names;
+}
+
 /// Positions on marks and nearest samples of one track.
 void compareTrack(const Survey& survey, const GroundTrack& track, const PipelineConfig& config, Stage stage,
                   bool tied, Comparison& comparison) {
@@ -41,7 +52,7 @@ void compareTrack(const Survey& survey, const GroundTrack& track, const Pipeline
                                          tied));
     }
     const std::set<std::string> tied_marks =
-        tied ? tiedMarks(survey, config.fusion.stands) : std::set<std::string>{};
+        tied ? usedMarks(survey, config.fusion) : std::set<std::string>{};
     comparison.add(nearestSampleResiduals(survey, track.points, stage, tied_marks,
                                           {.greatest_distance_m = config.report.nearest_sample_limit_m}));
 }
@@ -326,6 +337,10 @@ std::string methodName(const FusionOptions& options) {
     if (options.method == FusionMethod::Aukf) {
         return "9-state " + filterName(options.aukf.filter) + " as published (Xie et al. 2024), forward only";
     }
+    if (options.method == FusionMethod::Terrawalk) {
+        return "adaptive unscented Kalman filter with error states, then joint adjustment of all runs with "
+               "their crossovers";
+    }
     return options.smooth ? "9-state unscented Kalman filter, Rauch-Tung-Striebel smoothed"
                           : "9-state unscented Kalman filter";
 }
@@ -357,9 +372,8 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     auto surface = makeSurface(survey, fused->points, config.surface, *projection, triangulating, stop);
     if (!surface) return tl::unexpected(surface.error());
     const DelaunayTin& tin = surface->tin;
-    comparison->add(
-        surfaceResiduals(survey.marks, heightOf(tin, *projection), Stage::Surface,
-                         tied ? tiedMarks(survey, config.fusion.stands) : std::set<std::string>{}));
+    comparison->add(surfaceResiduals(survey.marks, heightOf(tin, *projection), Stage::Surface,
+                                     tied ? usedMarks(survey, config.fusion) : std::set<std::string>{}));
 
     Products products;
     products.used = config;
@@ -384,6 +398,7 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     report.settings.push_back(
         {"survey.vertical_datum", survey.vertical_datum, projection->heightReference()});
     report.method = methodName(config.fusion);
+    report.adjustment = fused->adjustment;
     for (std::size_t i = 0; i < survey.runs.size(); ++i) {
         report.runs.push_back(
             reportRun(survey.runs[i], fused->runs[i], pointsOfRun(products.ground_points, *fused, i)));

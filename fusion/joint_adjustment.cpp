@@ -1,0 +1,1266 @@
+#include "fusion/joint_adjustment.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "fusion/barometer.hpp"
+#include "fusion/sparse_least_squares.hpp"
+
+namespace terrawalk {
+
+namespace {
+
+double squared(double x) {
+    return x * x;
+}
+
+// Rows by the cause of their noise.
+enum Group : std::size_t {
+    kPrior,
+    kTieH,
+    kTieV,
+    kGnssH,  // of three kinds of fix each
+    kGnssV = kGnssH + 3,
+    kGnssWalkH = kGnssV + 3,
+    kGnssWalkV = kGnssWalkH + 3,
+    kDoppler = kGnssWalkV + 3,
+    kBarometer,
+    kBarometerDrift,
+    kGust,
+    kFlow,
+    kBridge,
+    kCompass,
+    kGyro,
+    kHeading,
+    kWalk,
+    kClimb,
+    kRoughness,
+    kBlindClimb,
+    kPair,
+    kMarkPass,
+    kGroupCount,
+};
+
+std::vector<RowGroup> rowGroups(bool robust) {
+    std::vector<RowGroup> groups(kGroupCount);
+    const auto set = [&](std::size_t g, std::string name, Loss loss, double tuning, bool adapt,
+                         double least = 0.2, double greatest = 5.0) {
+        groups[g] = {
+            std::move(name), robust ? loss : Loss::Square, tuning, false, adapt, least, greatest, 20.0, 1.0};
+    };
+    set(kPrior, "prior", Loss::Square, 3.0, false);
+    set(kTieH, "mark ties, plan", Loss::Square, 3.0, false);
+    set(kTieV, "mark ties, height", Loss::Huber, 3.0, false);
+    static const std::array<std::string, 3> kFixes{"single", "RTK float", "RTK fixed"};
+    for (std::size_t f = 0; f < 3; ++f) {
+        set(kGnssH + f, "GNSS noise, plan, " + kFixes[f], Loss::Cauchy, 3.0, true);
+        set(kGnssV + f, "GNSS noise, height, " + kFixes[f], Loss::Cauchy, 3.0, true);
+        set(kGnssWalkH + f, "GNSS drift, plan, " + kFixes[f], Loss::Cauchy, 2.0, true, 0.3, 3.0);
+        set(kGnssWalkV + f, "GNSS drift, height, " + kFixes[f], Loss::Cauchy, 2.0, true, 0.3, 3.0);
+    }
+    set(kDoppler, "GNSS velocity", Loss::Cauchy, 3.0, true);
+    set(kBarometer, "barometer noise", Loss::Huber, 2.0, true);
+    set(kBarometerDrift, "barometer drift", Loss::Square, 3.0, true, 0.1, 6.0);
+    set(kGust, "barometer gusts", Loss::Square, 3.0, true, 0.1, 6.0);
+    set(kFlow, "optical flow", Loss::Huber, 3.0, true, 0.3, 6.0);
+    set(kBridge, "optical flow bridged", Loss::Square, 2.0, true, 0.3, 3.0);
+    set(kCompass, "compass drift", Loss::Huber, 3.0, true, 0.2, 6.0);
+    set(kGyro, "gyro", Loss::Huber, 3.0, true, 0.2, 20.0);
+    set(kHeading, "compass noise", Loss::Cauchy, 3.0, true, 0.2, 10.0);
+    set(kWalk, "walk", Loss::Square, 2.0, false);
+    set(kClimb, "ground climb", Loss::Cauchy, 2.0, true, 0.5, 4.0);
+    groups[kClimb].by_median = true;
+    set(kRoughness, "ground roughness", Loss::Huber, 2.0, true, 0.2, 6.0);
+    set(kBlindClimb, "climb", Loss::Huber, 2.0, false);
+    set(kPair, "crossovers", Loss::Cauchy, 3.0, true, 0.9, 5.0);
+    set(kMarkPass, "passes over marks", Loss::Cauchy, 3.0, true, 0.9, 5.0);
+    return groups;
+}
+
+std::size_t fixClass(const ArrayLog& log, std::size_t i) {
+    const double fix = log.value(Channel::Fix, i);
+    if (!present(fix)) return 0;
+    if (std::lround(fix) == fix_code::kRtkFixed) return 2;
+    return std::lround(fix) == fix_code::kRtkFloat ? 1 : 0;
+}
+
+// Coefficients of one row under work.
+class RowBuilder {
+  public:
+    void clear() { size_ = 0; }
+    void add(std::size_t unknown, double value) { items_[size_++] = {unknown, value}; }
+    std::span<const Coefficient> all() const { return {items_.data(), size_}; }
+
+  private:
+    std::array<Coefficient, 32> items_;
+    std::size_t size_ = 0;
+};
+
+// A quantity that is linear between knots in time; its values are unknowns, one behind the other `stride`
+// apart.
+class Chain {
+  public:
+    Chain() = default;
+    // Knots every `step_s` where there is something to tell; a gap of two steps is jumped over.
+    void cover(double time_s, double step_s) {
+        if (times_.empty()) {
+            times_.push_back(time_s);
+        }
+        while (time_s > times_.back()) {
+            times_.push_back(time_s > times_.back() + 2.0 * step_s ? time_s : times_.back() + step_s);
+        }
+    }
+    void place(std::size_t first_unknown, std::size_t stride) {
+        first_ = first_unknown;
+        stride_ = stride;
+        values_.assign(times_.size() * stride, 0.0);
+    }
+    std::size_t knots() const { return times_.size(); }
+    double time(std::size_t k) const { return times_[k]; }
+    std::size_t unknown(std::size_t k, std::size_t part = 0) const { return first_ + k * stride_ + part; }
+    std::size_t unknowns() const { return values_.size(); }
+    double knotValue(std::size_t k, std::size_t part = 0) const { return values_[k * stride_ + part]; }
+
+    void setKnotValue(std::size_t k, double value) { values_[k * stride_] = value; }
+
+    struct Place {
+        std::size_t knot = 0;
+        double fraction = 0.0;  // towards the next knot
+    };
+    Place locate(double time_s) const {
+        if (times_.size() == 1) return {0, 0.0};
+        const auto next = std::upper_bound(times_.begin(), times_.end(), time_s);
+        const auto k = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
+            next - times_.begin() - 1, 0, static_cast<std::ptrdiff_t>(times_.size()) - 2));
+        return {k, std::clamp((time_s - times_[k]) / (times_[k + 1] - times_[k]), 0.0, 1.0)};
+    }
+    double value(const Place& at, std::size_t part = 0) const {
+        const double here = knotValue(at.knot, part);
+        return at.fraction == 0.0 ? here : here + at.fraction * (knotValue(at.knot + 1, part) - here);
+    }
+    void addTo(RowBuilder& row, const Place& at, double factor, std::size_t part = 0) const {
+        row.add(unknown(at.knot, part), factor * (1.0 - at.fraction));
+        if (at.fraction > 0.0) row.add(unknown(at.knot + 1, part), factor * at.fraction);
+    }
+    void take(const Eigen::VectorXd& solution) {
+        for (std::size_t i = 0; i < values_.size(); ++i) {
+            values_[i] += solution[static_cast<Eigen::Index>(first_ + i)];
+        }
+    }
+
+  private:
+    std::vector<double> times_;
+    std::vector<double> values_;
+    std::size_t first_ = 0;
+    std::size_t stride_ = 1;
+};
+
+// GNSS positions of one kind of fix, one after the other.
+struct GnssSegment {
+    std::size_t fix_class = 0;
+    double sigma_m = 0.0;  // of the lasting error
+    double sigma_up_m = 0.0;
+    Chain error;  // e, n, u
+};
+
+struct GnssEpoch {
+    std::size_t epoch = 0;
+    std::size_t segment = 0;
+    Eigen::Vector3d enu_m;
+    double white_m = 0.0;
+    double white_up_m = 0.0;
+};
+
+// A number that a run has once.
+struct Scalar {
+    std::size_t unknown = 0;
+    double value = 0.0;
+};
+
+class RunModel {
+  public:
+    const RunStart* start = nullptr;
+    const ArrayLog* log = nullptr;
+    std::vector<Eigen::Vector3d> track_m;  // as corrected so far
+    std::vector<double> yaw_rad;           // as measured, unwrapped nowhere
+    Chain correction;                      // e, n, u of the track
+    Chain level;  // of the ground along the track, as far as it is even; knots as in `correction`
+    Chain psi;    // compass error that wanders
+    Chain turn;   // error of the turn summed up from the gyro
+    std::vector<double> base_yaw_rad;     // what `turn` corrects: summed gyro, continuous
+    std::vector<double> base_doubt_rad2;  // variance of the turn before this epoch where the gyro was silent
+    Chain drift, gust;                    // barometer
+    std::vector<GnssSegment> segments;
+    std::vector<GnssEpoch> gnss;
+    Scalar iron_sin, iron_cos, scale, axes, gyro_bias;
+    bool has_flow = false, has_heading = false, has_gyro = false, has_barometer = false;
+    // Optical flow of each epoch, forward and left; where there was none, the mean of those around it.
+    std::vector<Eigen::Vector2d> flow_mps;
+    std::vector<double> bridge_sigma_mps;  // zero where the flow was measured
+    std::vector<bool> level_known;         // whether a range was measured about the knot
+    std::vector<double> plan_variance_m2;  // of each knot, per axis, as of the last solution
+    std::vector<double> above_ground_m;    // height of the array above the ground below it, spikes left out
+    std::vector<Chain::Place> at;          // of each epoch in `correction`
+    std::vector<Chain::Place> psi_at;
+    std::vector<Chain::Place> turn_at;
+
+    double time(std::size_t i) const { return log->time_s[i]; }
+    std::size_t size() const { return log->size(); }
+};
+
+class JointAdjuster {
+  public:
+    JointAdjuster(const Survey& survey, std::span<const RunStart> starts, const FusionOptions& options,
+                  Progress& progress, std::stop_token stop)
+        : survey_(survey),
+          frame_(survey.frame()),
+          options_(options),
+          progress_(progress),
+          stop_(std::move(stop)) {
+        for (const RunStart& start : starts) runs_.push_back(prepare(start));
+        iron_sin_.unknown = take();
+        iron_cos_.unknown = take();
+        for (RunModel& run : runs_) number(run);
+    }
+
+    Result<JointSolution> adjust() {
+        JointSolution result;
+        result.summary.unknowns = unknowns_;
+        std::vector<RowGroup> groups = rowGroups(true);
+        std::optional<SparseLeastSquares> before;
+        const int last = 1 + options_.joint.rounds;
+        for (int round = 0; round <= last; ++round) {
+            if (stop_.stop_requested()) return cancelled();
+            progress_.report(static_cast<double>(round) / (last + 1), "adjusting all runs");
+            const bool robust = round > 0;
+            const bool with_pairs = options_.joint.use_crossovers && round > 1;
+            if (options_.joint.use_crossovers && (round == 0 || with_pairs)) findPairs();
+            if (round == 0) result.summary.misfit_before_m = misfit();
+            SparseLeastSquares system(unknowns_, robust ? groups : rowGroups(false));
+            addRows(system, with_pairs);
+            if (stop_.stop_requested()) return cancelled();
+            wantCovariances(system);
+            // With other crossovers another order of elimination is good.
+            if (before && !with_pairs) system.continueFrom(*before);
+            const auto solution = system.solve();
+            if (!solution) {
+                return badData("the adjustment of all runs has no solution", survey_.project_file, 0,
+                               "use --method ukf, or leave out the run that has no position");
+            }
+            takeSolution(*solution);
+            takePlanVariances(system);
+            if (round == 1) height_inflation_ = heightInflation(system);
+            const bool adapts = options_.joint.adapt_noise && round > 0 && round < last;
+            if (adapts || round == last) {
+                const std::vector<GroupStatistics> statistics = system.statistics(*solution);
+                if (adapts) system.adaptScales(statistics);
+                groups = system.groups();
+                if (round == last) {
+                    for (std::size_t g = 0; g < groups.size(); ++g) {
+                        if (statistics[g].rows == 0) continue;
+                        result.summary.noise.push_back({groups[g].name, statistics[g].rows,
+                                                        statistics[g].redundancy, groups[g].scale,
+                                                        statistics[g].down_weighted});
+                    }
+                    for (const RunModel& run : runs_) result.trajectories.push_back(trajectory(run, system));
+                }
+            }
+            before.emplace(std::move(system));
+        }
+        result.summary.height_inflation = height_inflation_;
+        if (options_.joint.use_crossovers) {
+            findPairs();
+            result.summary.misfit_after_m = misfit();
+            result.crossovers = pairs_;
+            result.summary.crossovers = pairs_.size();
+        }
+        return result;
+    }
+
+  private:
+    std::size_t take(std::size_t n = 1) {
+        const std::size_t first = unknowns_;
+        unknowns_ += n;
+        return first;
+    }
+
+    // ---- what a run offers
+
+    RunModel prepare(const RunStart& start) const {
+        RunModel run;
+        run.start = &start;
+        run.log = &start.run->log;
+        const ArrayLog& log = *run.log;
+        for (const TrajectoryEpoch& epoch : start.trajectory.epochs) {
+            run.track_m.push_back(epoch.position_enu_m);
+        }
+        for (const EpochAttitude& a : start.attitudes) run.yaw_rad.push_back(a.attitude.yaw_rad);
+        prepareGnss(run);
+        run.has_barometer = options_.barometer.use && start.reference.barometer_zero_m.has_value();
+        for (std::size_t i = 0; i < log.size(); ++i) {
+            run.correction.cover(log.time_s[i], options_.joint.knot_s);
+            if (start.attitudes[i].heading_known) {
+                run.psi.cover(log.time_s[i], options_.joint.heading_knot_s);
+                run.has_heading = true;
+            }
+            const auto rejection = flowRejection(log, i, start.attitudes[i], options_.flow);
+            if (options_.flow.use && rejection && rejection->empty()) run.has_flow = true;
+            if (run.has_barometer && barometerRejection(log, i) == "") {
+                run.drift.cover(log.time_s[i], options_.joint.barometer_knot_s);
+                run.gust.cover(log.time_s[i], options_.joint.knot_s);
+            }
+        }
+        if (run.has_heading) prepareTurn(run);
+        run.above_ground_m = withoutSpikes(run);
+        prepareFlow(run);
+        return run;
+    }
+
+    // Sums the gyro up to a heading; over its gaps the compass tells the turn.
+    void prepareTurn(RunModel& run) const {
+        const ArrayLog& log = *run.log;
+        const std::size_t n = run.size();
+        std::vector<double> rate(n, kMissing);
+        std::size_t known = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            const Attitude& a = run.start->attitudes[i].attitude;
+            rate[i] = (std::sin(a.roll_rad) * log.value(Channel::AngularRateY, i) +
+                       std::cos(a.roll_rad) * log.value(Channel::AngularRateZ, i)) /
+                      std::cos(a.pitch_rad);
+            if (present(rate[i])) ++known;
+        }
+        if (2 * known < n) return;
+        run.has_gyro = true;
+        run.base_yaw_rad.assign(n, 0.0);
+        run.base_doubt_rad2.assign(n, 0.0);
+        run.base_yaw_rad[0] = run.yaw_rad[0];
+        constexpr double kUnknownRate_radps = radians(20.0);  // change of rate from one record to the next
+        const double longest_s = 1.5 * usualStep(log);
+        const double compass_step = 2.0 * squared(compassNoise_rad());
+        for (std::size_t i = 1; i < n; ++i) {
+            const double dt = log.time_s[i] - log.time_s[i - 1];
+            const bool summed = present(rate[i]) && present(rate[i - 1]) && dt <= longest_s;
+            const bool compass =
+                present(log.value(Channel::Heading, i)) && present(log.value(Channel::Heading, i - 1));
+            // A stride turns the hand by degrees between two records: over a gap the compass tells more.
+            double turned = 0.0;
+            if (summed) {
+                turned = 0.5 * dt * (rate[i] + rate[i - 1]);
+            } else if (compass) {
+                turned = wrapAngle(run.yaw_rad[i] - run.yaw_rad[i - 1]);
+                run.base_doubt_rad2[i] = compass_step;
+            } else {
+                const double known_rate = present(rate[i]) ? rate[i] : rate[i - 1];
+                turned = present(known_rate) ? dt * known_rate : 0.0;
+                run.base_doubt_rad2[i] = squared(dt * kUnknownRate_radps);
+            }
+            run.base_yaw_rad[i] = run.base_yaw_rad[i - 1] + turned;
+        }
+        run.has_gyro = followCompass(run);
+        if (!run.has_gyro) return;
+        for (std::size_t i = 0; i < n; ++i) run.turn.cover(log.time_s[i], options_.joint.heading_knot_s);
+    }
+
+    // White noise of the compass, a sixth of what it may be off at any time (paper 000, table 1: 0.5
+    // degrees).
+    double compassNoise_rad() const { return radians(options_.attitude.sigma_heading_deg) / 6.0; }
+
+    static double usualStep(const ArrayLog& log) {
+        std::vector<double> steps;
+        for (std::size_t i = 1; i < log.size(); ++i) steps.push_back(log.time_s[i] - log.time_s[i - 1]);
+        if (steps.empty()) return 1.0;
+        const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+        std::nth_element(steps.begin(), middle, steps.end());
+        return *middle;
+    }
+
+    // Takes the gyro's mean bias and the start of its sum from the compass, so that the adjustment begins
+    // near the truth. False when the two do not go together.
+    static bool followCompass(RunModel& run) {
+        constexpr double kFarthest_rad = radians(25.0);
+        const std::size_t n = run.size();
+        double unwrapped = run.yaw_rad[0];
+        std::vector<double> apart(n);
+        double mean_t = 0.0;
+        double mean_d = 0.0;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (i > 0) unwrapped += wrapAngle(run.yaw_rad[i] - run.yaw_rad[i - 1]);
+            apart[i] = run.base_yaw_rad[i] - unwrapped;
+            mean_t += run.time(i) / static_cast<double>(n);
+            mean_d += apart[i] / static_cast<double>(n);
+        }
+        double tt = 0.0;
+        double td = 0.0;
+        for (std::size_t i = 0; i < n; ++i) {
+            tt += squared(run.time(i) - mean_t);
+            td += (run.time(i) - mean_t) * (apart[i] - mean_d);
+        }
+        const double bias = tt > 0.0 ? td / tt : 0.0;
+        double squares = 0.0;
+        for (std::size_t i = 0; i < n; ++i) {
+            const double removed = mean_d + bias * (run.time(i) - mean_t);
+            run.base_yaw_rad[i] -= removed;
+            squares += squared(apart[i] - removed);
+        }
+        return std::sqrt(squares / static_cast<double>(n)) < kFarthest_rad;
+    }
+
+    // Where the flow is silent, a walk goes on as it did before and will after: the mean of the flow on
+    // either side of the gap, linear between, less sure the farther away they are.
+    void prepareFlow(RunModel& run) const {
+        const ArrayLog& log = *run.log;
+        const std::size_t n = run.size();
+        run.flow_mps.assign(n, Eigen::Vector2d::Constant(kMissing));
+        run.bridge_sigma_mps.assign(n, 0.0);
+        for (std::size_t i = 0; i < n; ++i) {
+            if (options_.flow.use && flowRejection(log, i, run.start->attitudes[i], options_.flow) == "") {
+                run.flow_mps[i] = {log.value(Channel::FlowForward, i), log.value(Channel::FlowLeft, i)};
+            }
+        }
+        if (!options_.flow.bridge_dropouts) return;
+        std::vector<bool> measured(n);
+        for (std::size_t i = 0; i < n; ++i) measured[i] = run.flow_mps[i].allFinite();
+        for (std::size_t i = 0; i < n;) {
+            if (measured[i]) {
+                ++i;
+                continue;
+            }
+            std::size_t end = i;
+            while (end < n && !measured[end]) ++end;
+            bridge(run, measured, i, end);
+            i = end;
+        }
+    }
+
+    // Epochs [from, to) have no flow.
+    void bridge(RunModel& run, const std::vector<bool>& measured, std::size_t from, std::size_t to) const {
+        constexpr double kMean_s = 3.0;
+        const auto meanBefore = [&](std::size_t i, bool backwards) -> std::optional<Eigen::Vector2d> {
+            Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+            double count = 0.0;
+            const double edge_s = run.time(i);
+            for (std::size_t j = i; j < run.size() && std::abs(run.time(j) - edge_s) <= kMean_s;
+                 j += backwards ? static_cast<std::size_t>(-1) : 1) {
+                if (!measured[j]) continue;
+                sum += run.flow_mps[j];
+                count += 1.0;
+            }
+            if (count == 0.0) return std::nullopt;
+            return sum / count;
+        };
+        const auto before = from > 0 ? meanBefore(from - 1, true) : std::nullopt;
+        const auto after = to < run.size() ? meanBefore(to, false) : std::nullopt;
+        if (!before && !after) return;
+        const double begin_s = run.time(from > 0 ? from - 1 : from);
+        const double end_s = run.time(to < run.size() ? to : to - 1);
+        const double length_s = std::max(end_s - begin_s, 1e-3);
+        const FlowOptions& o = options_.flow;
+        for (std::size_t i = from; i < to; ++i) {
+            if (!run.start->attitudes[i].heading_known) continue;
+            const double share = (run.time(i) - begin_s) / length_s;
+            const Eigen::Vector2d left = before.value_or(after.value_or(Eigen::Vector2d::Zero()));
+            const Eigen::Vector2d right = after.value_or(left);
+            run.flow_mps[i] = left + share * (right - left);
+            const double away_s = std::min(before ? run.time(i) - begin_s : end_s - run.time(i),
+                                           after ? end_s - run.time(i) : run.time(i) - begin_s);
+            // Errors of a gap go together: seconds of it do not average out.
+            const double together = std::max(1.0, std::min(length_s, o.bridge_memory_s));
+            run.bridge_sigma_mps[i] =
+                o.bridge_sigma_mps *
+                std::sqrt(together * (0.04 - std::expm1(-2.0 * away_s / o.bridge_memory_s)));
+        }
+    }
+
+    void prepareGnss(RunModel& run) const {
+        const RunStart& start = *run.start;
+        const ArrayLog& log = *run.log;
+        const LastingErrorOptions& lasting = options_.lasting;
+        if (!options_.gnss.use_position) return;
+        for (std::size_t i = 0; i < log.size(); ++i) {
+            const auto position = gnssPosition(log, i, frame_, start.attitudes[i], run.track_m[i].z());
+            if (!position) continue;
+            const GnssQuality quality = gnssQuality(log, i, options_.gnss);
+            if (!quality.rejection.empty()) continue;
+            if (!start.gnss_gated.empty() && start.gnss_gated[i]) continue;
+            const std::size_t fix_class = fixClass(log, i);
+            if (run.segments.empty() || run.segments.back().fix_class != fix_class) {
+                run.segments.push_back({fix_class, 0.0, 0.0, {}});
+            }
+            GnssSegment& segment = run.segments.back();
+            segment.error.cover(log.time_s[i], options_.joint.gnss_knot_s);
+            segment.sigma_m = std::max(segment.sigma_m, tableSigma(fix_class, false));
+            segment.sigma_up_m = std::max(segment.sigma_up_m, tableSigma(fix_class, true));
+            const double share = fix_class == 2 ? lasting.gnss_white_share_fixed : lasting.gnss_white_share;
+            GnssEpoch epoch;
+            epoch.epoch = i;
+            epoch.segment = run.segments.size() - 1;
+            epoch.enu_m = position->enu_m;
+            if (start.reference.gnss_height == GnssHeightUse::Never) epoch.enu_m.z() = kMissing;
+            epoch.white_m = std::sqrt(squared(share * quality.sigma_m) + position->arm_variance_m2);
+            epoch.white_up_m = std::sqrt(squared(share * quality.sigma_up_m) + position->arm_variance_up_m2);
+            run.gnss.push_back(epoch);
+        }
+    }
+
+    double tableSigma(std::size_t fix_class, bool up) const {
+        const GnssOptions& g = options_.gnss;
+        if (fix_class == 2) return up ? g.sigma_fixed_up_m : g.sigma_fixed_m;
+        if (fix_class == 1) return up ? g.sigma_float_up_m : g.sigma_float_m;
+        return up ? g.sigma_single_up_m : g.sigma_single_m;
+    }
+
+    // A hand or a leaf in front of the finder stands off from the median of the readings around it.
+    std::vector<double> withoutSpikes(const RunModel& run) const {
+        constexpr std::size_t kSide = 3;
+        constexpr double kTolerance_m = 0.25;
+        const ArrayLog& log = *run.log;
+        const std::size_t n = log.size();
+        std::vector<double> above(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            above[i] = heightAboveGround(log, i, run.start->attitudes[i].attitude, options_.ties);
+        }
+        std::vector<double> kept(n, kMissing);
+        std::vector<double> around;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (!present(above[i])) continue;
+            around.clear();
+            const std::size_t from = i < kSide ? 0 : i - kSide;
+            for (std::size_t j = from; j < std::min(n, i + kSide + 1); ++j) {
+                if (present(above[j])) around.push_back(above[j]);
+            }
+            std::nth_element(around.begin(), around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2),
+                             around.end());
+            if (std::abs(above[i] - around[around.size() / 2]) <= kTolerance_m) kept[i] = above[i];
+        }
+        return kept;
+    }
+
+    void number(RunModel& run) {
+        run.correction.place(unknowns_, 3);
+        take(3 * run.correction.knots());
+        for (std::size_t i = 0; i < run.size(); ++i) run.at.push_back(run.correction.locate(run.time(i)));
+        run.level = run.correction;
+        run.level.place(unknowns_, 1);
+        take(run.level.knots());
+        run.level_known.assign(run.level.knots(), false);
+        for (GnssSegment& segment : run.segments) {
+            segment.error.place(unknowns_, 3);
+            take(3 * segment.error.knots());
+        }
+        if (run.has_barometer) {
+            run.drift.place(unknowns_, 1);
+            take(run.drift.knots());
+            run.gust.place(unknowns_, 1);
+            take(run.gust.knots());
+        }
+        if (run.has_heading) {
+            run.psi.place(unknowns_, 1);
+            take(run.psi.knots());
+            for (std::size_t i = 0; i < run.size(); ++i) run.psi_at.push_back(run.psi.locate(run.time(i)));
+            if (run.has_gyro) {
+                run.turn.place(unknowns_, 1);
+                take(run.turn.knots());
+                for (std::size_t i = 0; i < run.size(); ++i)
+                    run.turn_at.push_back(run.turn.locate(run.time(i)));
+            }
+            for (Scalar* s : {&run.iron_sin, &run.iron_cos, &run.scale, &run.axes, &run.gyro_bias}) {
+                s->unknown = take();
+            }
+        }
+    }
+
+    // ---- rows
+
+    void addRows(SparseLeastSquares& system, bool with_pairs) {
+        const double iron = radians(options_.lasting.hard_iron_sigma_deg);
+        system.addRow(kPrior, {{iron_sin_.unknown, 1.0}}, -iron_sin_.value, iron);
+        system.addRow(kPrior, {{iron_cos_.unknown, 1.0}}, -iron_cos_.value, iron);
+        for (RunModel& run : runs_) {
+            addStart(run, system);
+            addTies(run, system);
+            addGnss(run, system);
+            addDoppler(run, system);
+            addBarometer(run, system);
+            addFlow(run, system);
+            addHeading(run, system);
+            addWalk(run, system);
+            addClimb(run, system);
+        }
+        if (with_pairs) addPairs(system);
+    }
+
+    void position(const RunModel& run, std::size_t epoch, std::size_t axis, double factor) {
+        run.correction.addTo(row_, run.at[epoch], factor, axis);
+    }
+
+    // Weak where ties or GNSS tell more: it only keeps the system regular.
+    void addStart(const RunModel& run, SparseLeastSquares& system) {
+        const RunReference& reference = run.start->reference;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<Eigen::Index>(axis);
+            const double sigma = std::max(reference.start_sigma_m[a], 0.01);
+            system.addRow(kPrior, {{run.correction.unknown(0, axis), 1.0}},
+                          reference.start_enu_m[a] - run.track_m[0][a], sigma);
+        }
+    }
+
+    void addTies(const RunModel& run, SparseLeastSquares& system) {
+        for (const MarkTie& tie : run.start->reference.ties) {
+            for (std::size_t axis = 0; axis < (tie.has_height ? 3U : 2U); ++axis) {
+                const auto a = static_cast<Eigen::Index>(axis);
+                row_.clear();
+                position(run, tie.epoch, axis, 1.0);
+                system.addRow(axis == 2 ? kTieV : kTieH, row_.all(),
+                              tie.array_enu_m[a] - run.track_m[tie.epoch][a], std::sqrt(tie.variance_m2[a]));
+            }
+        }
+    }
+
+    void addGnss(const RunModel& run, SparseLeastSquares& system) {
+        for (const GnssEpoch& gnss : run.gnss) {
+            const GnssSegment& segment = run.segments[gnss.segment];
+            const Chain::Place place = segment.error.locate(run.time(gnss.epoch));
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const auto a = static_cast<Eigen::Index>(axis);
+                if (!present(gnss.enu_m[a])) continue;
+                row_.clear();
+                position(run, gnss.epoch, axis, 1.0);
+                segment.error.addTo(row_, place, 1.0, axis);
+                system.addRow((axis == 2 ? kGnssV : kGnssH) + segment.fix_class, row_.all(),
+                              gnss.enu_m[a] - run.track_m[gnss.epoch][a] - segment.error.value(place, axis),
+                              axis == 2 ? gnss.white_up_m : gnss.white_m);
+            }
+        }
+        for (const GnssSegment& segment : run.segments) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                addGaussMarkov(segment.error, axis, axis == 2 ? segment.sigma_up_m : segment.sigma_m,
+                               options_.lasting.gnss_correlation_s,
+                               (axis == 2 ? kGnssWalkV : kGnssWalkH) + segment.fix_class, system);
+            }
+        }
+    }
+
+    // A stationary first-order Gauss-Markov process; the first knot carries its variance.
+    void addGaussMarkov(const Chain& chain, std::size_t part, double sigma, double correlation_s,
+                        std::size_t group, SparseLeastSquares& system) {
+        system.addRow(kPrior, {{chain.unknown(0, part), 1.0}}, -chain.knotValue(0, part), sigma);
+        for (std::size_t k = 1; k < chain.knots(); ++k) {
+            const double keep = std::exp(-(chain.time(k) - chain.time(k - 1)) / correlation_s);
+            system.addRow(group, {{chain.unknown(k, part), 1.0}, {chain.unknown(k - 1, part), -keep}},
+                          keep * chain.knotValue(k - 1, part) - chain.knotValue(k, part),
+                          sigma * std::sqrt(1.0 - keep * keep));
+        }
+    }
+
+    // Track between two times, linear between epochs.
+    Eigen::Vector3d trackAt(const RunModel& run, double time_s) const {
+        const std::vector<double>& times = run.log->time_s;
+        if (time_s <= times.front()) return run.track_m.front();
+        if (time_s >= times.back()) return run.track_m.back();
+        const auto next =
+            static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time_s) - times.begin());
+        const double f = (time_s - times[next - 1]) / (times[next] - times[next - 1]);
+        return run.track_m[next - 1] + f * (run.track_m[next] - run.track_m[next - 1]);
+    }
+
+    // Calls f(epoch, from_s, to_s) for the share that each epoch has in each knot interval: an epoch stands
+    // for the time to halfway to its neighbours, but no longer than a usual step.
+    template <class Usable, class Take, class Done>
+    void overIntervals(const RunModel& run, Usable usable, Take take_part, Done done) const {
+        const std::vector<double>& times = run.log->time_s;
+        std::size_t i = 0;
+        for (std::size_t k = 0; k + 1 < run.correction.knots(); ++k) {
+            const double from_s = run.correction.time(k);
+            const double to_s = run.correction.time(k + 1);
+            while (i > 0 && cellEnd(times, i - 1) > from_s) --i;
+            for (; i < times.size() && cellBegin(times, i) < to_s; ++i) {
+                const double begin_s = std::max(cellBegin(times, i), from_s);
+                const double end_s = std::min(cellEnd(times, i), to_s);
+                if (end_s > begin_s && usable(i)) take_part(i, begin_s, end_s);
+            }
+            done(k, to_s - from_s);
+        }
+    }
+    static constexpr double kLongestCell_s = 0.3;  // half of it, on either side
+    static double cellBegin(const std::vector<double>& times, std::size_t i) {
+        if (i == 0) return times[0];
+        return times[i] - std::min(0.5 * (times[i] - times[i - 1]), kLongestCell_s);
+    }
+    static double cellEnd(const std::vector<double>& times, std::size_t i) {
+        if (i + 1 == times.size()) return times[i];
+        return times[i] + std::min(0.5 * (times[i + 1] - times[i]), kLongestCell_s);
+    }
+
+    void addDoppler(const RunModel& run, SparseLeastSquares& system) {
+        if (!options_.gnss.use_velocity || !run.log->has(Channel::GnssVelocityEast)) return;
+        static constexpr std::array<Channel, 3> kAxes{Channel::GnssVelocityEast, Channel::GnssVelocityNorth,
+                                                      Channel::GnssVelocityUp};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<Eigen::Index>(axis);
+            const double sigma =
+                axis == 2 ? options_.gnss.velocity_sigma_up_mps : options_.gnss.velocity_sigma_mps;
+            double residual = 0.0;
+            double covered_s = 0.0;
+            double variance = 0.0;
+            overIntervals(
+                run,
+                [&](std::size_t i) {
+                    return present(run.log->value(kAxes[axis], i)) && dopplerRejection(*run.log, i) == "";
+                },
+                [&](std::size_t i, double from_s, double to_s) {
+                    const double dt = to_s - from_s;
+                    residual +=
+                        dt * run.log->value(kAxes[axis], i) - (trackAt(run, to_s) - trackAt(run, from_s))[a];
+                    covered_s += dt;
+                    // Errors that last for `velocity_correlation_s`.
+                    variance +=
+                        squared(dt * sigma) *
+                        std::max(1.0, 2.0 * options_.gnss.velocity_correlation_s / std::max(dt, 0.02) / 5.0);
+                },
+                [&](std::size_t k, double dt) {
+                    if (covered_s > 0.0) {
+                        const double share = covered_s / dt;
+                        system.addRow(kDoppler,
+                                      {{run.correction.unknown(k + 1, axis), share},
+                                       {run.correction.unknown(k, axis), -share}},
+                                      residual, std::max(std::sqrt(variance), 0.01));
+                    }
+                    residual = covered_s = variance = 0.0;
+                });
+        }
+    }
+
+    void addBarometer(const RunModel& run, SparseLeastSquares& system) {
+        if (!run.has_barometer) return;
+        const BarometerOptions& o = options_.barometer;
+        for (std::size_t i = 0; i < run.size(); ++i) {
+            if (barometerRejection(*run.log, i) != "") continue;
+            const double up_m = run.start->reference.barometricUp(run.log->value(Channel::Pressure, i),
+                                                                  o.scale, run.track_m[i]);
+            const Chain::Place drift = run.drift.locate(run.time(i));
+            const Chain::Place gust = run.gust.locate(run.time(i));
+            row_.clear();
+            position(run, i, 2, 1.0);
+            run.drift.addTo(row_, drift, 1.0);
+            run.gust.addTo(row_, gust, 1.0);
+            system.addRow(kBarometer, row_.all(),
+                          up_m - run.track_m[i].z() - run.drift.value(drift) - run.gust.value(gust),
+                          o.sigma_m);
+        }
+        addGaussMarkov(run.gust, 0, o.gust_sigma_m, o.gust_correlation_s, kGust, system);
+        const double zero_sigma_m =
+            heightIsTold(run) ? kLooseZero_m : std::sqrt(run.start->reference.height_reference_variance_m2);
+        system.addRow(kPrior, {{run.drift.unknown(0), 1.0}}, -run.drift.knotValue(0),
+                      std::max(zero_sigma_m, 0.01));
+        for (std::size_t k = 1; k < run.drift.knots(); ++k) {
+            const double dt = run.drift.time(k) - run.drift.time(k - 1);
+            system.addRow(kBarometerDrift, {{run.drift.unknown(k), 1.0}, {run.drift.unknown(k - 1), -1.0}},
+                          run.drift.knotValue(k - 1) - run.drift.knotValue(k),
+                          o.drift_m_per_sqrt_min * std::sqrt(dt / 60.0));
+        }
+    }
+
+    static constexpr double kLooseZero_m = 10.0;
+
+    // Whether anything but the zero of the barometer tells the height of a run.
+    static bool heightIsTold(const RunModel& run) {
+        for (const MarkTie& tie : run.start->reference.ties) {
+            if (tie.has_height) return true;
+        }
+        return std::any_of(run.gnss.begin(), run.gnss.end(),
+                           [](const GnssEpoch& g) { return present(g.enu_m.z()); });
+    }
+
+    double trueYaw(const RunModel& run, std::size_t i) const {
+        if (!run.has_heading) return run.yaw_rad[i];
+        if (run.has_gyro) return run.base_yaw_rad[i] - run.turn.value(run.turn_at[i]);
+        const double yaw = run.yaw_rad[i];
+        return yaw - run.psi.value(run.psi_at[i]) - (iron_sin_.value + run.iron_sin.value) * std::sin(yaw) -
+               (iron_cos_.value + run.iron_cos.value) * std::cos(yaw);
+    }
+
+    void addFlow(const RunModel& run, SparseLeastSquares& system) {
+        if (!run.has_heading) return;
+        const LastingErrorOptions& lasting = options_.lasting;
+        const double iron = radians(lasting.hard_iron_run_sigma_deg);
+        system.addRow(kPrior, {{run.iron_sin.unknown, 1.0}}, -run.iron_sin.value, iron);
+        system.addRow(kPrior, {{run.iron_cos.unknown, 1.0}}, -run.iron_cos.value, iron);
+        system.addRow(kPrior, {{run.scale.unknown, 1.0}}, -run.scale.value, lasting.flow_scale_sigma);
+        system.addRow(kPrior, {{run.axes.unknown, 1.0}}, -run.axes.value, lasting.flow_axes_sigma);
+        if (!run.has_flow) return;
+        const FlowOptions& o = options_.flow;
+        Eigen::Vector2d residual = Eigen::Vector2d::Zero();
+        Eigen::Vector2d by_sin = residual, by_cos = residual, by_scale = residual, by_axes = residual;
+        std::array<Eigen::Vector2d, 3> by_knot{residual, residual, residual};
+        const Chain& turning = run.has_gyro ? run.turn : run.psi;
+        std::size_t first_knot = 0;
+        double covered_s = 0.0;
+        double bridged_s = 0.0;
+        double bridged_m = 0.0;
+        double variance = 0.0;
+        const double forward_scale = 1.0 + run.scale.value + run.axes.value;
+        const double left_scale = 1.0 + run.scale.value - run.axes.value;
+        overIntervals(
+            run, [&](std::size_t i) { return run.flow_mps[i].allFinite(); },
+            [&](std::size_t i, double from_s, double to_s) {
+                const double dt = to_s - from_s;
+                const double yaw = trueYaw(run, i);
+                const double c = std::cos(yaw);
+                const double s = std::sin(yaw);
+                const double f = run.flow_mps[i].x() / forward_scale;
+                const double l = run.flow_mps[i].y() / left_scale;
+                const Eigen::Vector2d v(c * f - s * l, s * f + c * l);
+                const Eigen::Vector2d turned(v.y(), -v.x());  // d v / d psi
+                residual += dt * v - (trackAt(run, to_s) - trackAt(run, from_s)).head<2>();
+                const Chain::Place place = run.has_gyro ? run.turn_at[i] : run.psi_at[i];
+                if (covered_s == 0.0) first_knot = place.knot;
+                const std::size_t k = std::min<std::size_t>(place.knot - first_knot, 1);
+                by_knot[k] += dt * (1.0 - place.fraction) * turned;
+                by_knot[k + 1] += dt * place.fraction * turned;
+                by_sin += dt * std::sin(run.yaw_rad[i]) * turned;
+                by_cos += dt * std::cos(run.yaw_rad[i]) * turned;
+                const Eigen::Vector2d forward(c * f / forward_scale, s * f / forward_scale);
+                const Eigen::Vector2d left(-s * l / left_scale, c * l / left_scale);
+                by_scale -= dt * (forward + left);
+                by_axes -= dt * (forward - left);
+                covered_s += dt;
+                if (run.bridge_sigma_mps[i] > 0.0) {
+                    bridged_s += dt;
+                    bridged_m += dt * run.bridge_sigma_mps[i];
+                    return;
+                }
+                variance += squared(dt) * (o.variance_m2ps2 + o.variance_per_v2 * (f * f + l * l));
+            },
+            [&](std::size_t k, double interval_s) {
+                if (covered_s > 0.0) {
+                    const double share = covered_s / interval_s;
+                    const bool bridged = bridged_s > 0.2 * covered_s;
+                    variance += squared(bridged_m);
+                    for (std::size_t axis = 0; axis < 2; ++axis) {
+                        const auto a = static_cast<Eigen::Index>(axis);
+                        row_.clear();
+                        row_.add(run.correction.unknown(k + 1, axis), share);
+                        row_.add(run.correction.unknown(k, axis), -share);
+                        for (std::size_t j = 0; j < 3; ++j) {
+                            if (by_knot[j][a] != 0.0)
+                                row_.add(turning.unknown(first_knot + j), -by_knot[j][a]);
+                        }
+                        if (!run.has_gyro) {
+                            row_.add(run.iron_sin.unknown, -by_sin[a]);
+                            row_.add(run.iron_cos.unknown, -by_cos[a]);
+                            row_.add(iron_sin_.unknown, -by_sin[a]);
+                            row_.add(iron_cos_.unknown, -by_cos[a]);
+                        }
+                        row_.add(run.scale.unknown, -by_scale[a]);
+                        row_.add(run.axes.unknown, -by_axes[a]);
+                        system.addRow(bridged ? kBridge : kFlow, row_.all(), residual[a],
+                                      std::max(std::sqrt(variance), 0.005));
+                    }
+                }
+                residual.setZero();
+                by_sin = by_cos = by_scale = by_axes = residual;
+                by_knot = {residual, residual, residual};
+                covered_s = bridged_s = bridged_m = variance = 0.0;
+            });
+    }
+
+    // The compass error wanders; what the gyro saw of the turns tells how.
+    void addHeading(const RunModel& run, SparseLeastSquares& system) {
+        if (!run.has_heading) return;
+        const LastingErrorOptions& lasting = options_.lasting;
+        addGaussMarkov(run.psi, 0, radians(lasting.heading_sigma_deg), lasting.heading_correlation_s,
+                       kCompass, system);
+        system.addRow(kPrior, {{run.gyro_bias.unknown, 1.0}}, -run.gyro_bias.value,
+                      radians(lasting.gyro_bias_sigma_dps));
+        if (run.has_gyro) addGyro(run, system);
+    }
+
+    void addGyro(const RunModel& run, SparseLeastSquares& system) {
+        const double walk = radians(options_.lasting.gyro_walk_deg_per_sqrt_s);
+        std::vector<double> doubt_rad2(run.turn.knots(), 0.0);
+        for (std::size_t i = 0; i < run.size(); ++i) {
+            doubt_rad2[std::min(run.turn_at[i].knot + 1, run.turn.knots() - 1)] += run.base_doubt_rad2[i];
+        }
+        system.addRow(kPrior, {{run.turn.unknown(0), 1.0}}, -run.turn.knotValue(0), 1.0);
+        for (std::size_t k = 1; k < run.turn.knots(); ++k) {
+            const double dt = run.turn.time(k) - run.turn.time(k - 1);
+            system.addRow(
+                kGyro,
+                {{run.turn.unknown(k), 1.0}, {run.turn.unknown(k - 1), -1.0}, {run.gyro_bias.unknown, -dt}},
+                run.turn.knotValue(k - 1) - run.turn.knotValue(k) + run.gyro_bias.value * dt,
+                std::sqrt(squared(walk) * dt + doubt_rad2[k]));
+        }
+        addCompass(run, system);
+    }
+
+    // Compass against summed gyro, one row for the mean over each knot interval.
+    void addCompass(const RunModel& run, SparseLeastSquares& system) {
+        constexpr double kSteady_rad = radians(0.15);  // of the mean: what does not average out
+        const double white = compassNoise_rad();
+        std::array<double, 2> turn{}, psi{};
+        double n = 0.0, sine = 0.0, cosine = 0.0, residual = 0.0;
+        std::size_t psi_first = 0;
+        for (std::size_t i = 0; i <= run.size(); ++i) {
+            const std::size_t interval = i == run.size() ? run.turn.knots() : run.turn_at[i].knot;
+            if (n > 0.0 && interval != turn_interval_) {
+                row_.clear();
+                for (std::size_t j = 0; j < 2; ++j) {
+                    if (turn[j] != 0.0) row_.add(run.turn.unknown(turn_interval_ + j), -turn[j] / n);
+                    if (psi[j] != 0.0) row_.add(run.psi.unknown(psi_first + j), psi[j] / n);
+                }
+                row_.add(run.iron_sin.unknown, sine / n);
+                row_.add(iron_sin_.unknown, sine / n);
+                row_.add(run.iron_cos.unknown, cosine / n);
+                row_.add(iron_cos_.unknown, cosine / n);
+                system.addRow(kHeading, row_.all(), residual / n,
+                              std::hypot(white / std::sqrt(n), kSteady_rad));
+                turn = psi = {};
+                n = sine = cosine = residual = 0.0;
+            }
+            if (i == run.size()) break;
+            turn_interval_ = interval;
+            if (!present(run.log->value(Channel::Heading, i))) continue;
+            if (n == 0.0) psi_first = run.psi_at[i].knot;
+            const double yaw = run.yaw_rad[i];
+            turn[0] += 1.0 - run.turn_at[i].fraction;
+            turn[1] += run.turn_at[i].fraction;
+            psi[0] += 1.0 - run.psi_at[i].fraction;
+            psi[1] += run.psi_at[i].fraction;
+            sine += std::sin(yaw);
+            cosine += std::cos(yaw);
+            residual += wrapAngle(yaw - trueYaw(run, i) - run.psi.value(run.psi_at[i]) -
+                                  (iron_sin_.value + run.iron_sin.value) * std::sin(yaw) -
+                                  (iron_cos_.value + run.iron_cos.value) * std::cos(yaw));
+            n += 1.0;
+        }
+    }
+
+    // Nobody turns on the spot of a second: the horizontal velocity is a random walk.
+    void addWalk(const RunModel& run, SparseLeastSquares& system) {
+        for (std::size_t k = 1; k + 1 < run.correction.knots(); ++k) {
+            const double dt0 = run.correction.time(k) - run.correction.time(k - 1);
+            const double dt1 = run.correction.time(k + 1) - run.correction.time(k);
+            const Eigen::Vector3d before = trackAt(run, run.correction.time(k - 1));
+            const Eigen::Vector3d here = trackAt(run, run.correction.time(k));
+            const Eigen::Vector3d after = trackAt(run, run.correction.time(k + 1));
+            const Eigen::Vector3d change = (after - here) / dt1 - (here - before) / dt0;
+            const double sigma = options_.joint.walk_mps_per_sqrt_s * std::sqrt((dt0 + dt1) / 3.0);
+            for (std::size_t axis = 0; axis < 2; ++axis) {
+                system.addRow(kWalk,
+                              {{run.correction.unknown(k + 1, axis), 1.0 / dt1},
+                               {run.correction.unknown(k, axis), -1.0 / dt1 - 1.0 / dt0},
+                               {run.correction.unknown(k - 1, axis), 1.0 / dt0}},
+                              -change[static_cast<Eigen::Index>(axis)], sigma);
+            }
+        }
+    }
+
+    // Height above ground about a knot.
+    double aboveGround(const RunModel& run, double time_s) {
+        constexpr double kReach_s = 0.81;
+        const std::vector<double>& times = run.log->time_s;
+        scratch_.clear();
+        for (auto it = std::lower_bound(times.begin(), times.end(), time_s - kReach_s);
+             it != times.end() && *it <= time_s + kReach_s; ++it) {
+            const double above = run.above_ground_m[static_cast<std::size_t>(it - times.begin())];
+            if (present(above)) scratch_.push_back(above);
+        }
+        return heightThroughGrass(scratch_);
+    }
+
+    // The ground below the walk lies about a level that wanders little, but for steps such as a terrace edge:
+    // a level with noise. Where no range was measured the array itself climbs little.
+    void addClimb(RunModel& run, SparseLeastSquares& system) {
+        const JointOptions& o = options_.joint;
+        for (std::size_t k = 0; k < run.level.knots(); ++k) {
+            const double above = aboveGround(run, run.level.time(k));
+            const double up = trackAt(run, run.level.time(k)).z();
+            if (present(above) && !run.level_known[k]) run.level.setKnotValue(k, up - above);
+            run.level_known[k] = present(above);
+            if (run.level_known[k]) {
+                system.addRow(kRoughness, {{run.correction.unknown(k, 2), 1.0}, {run.level.unknown(k), -1.0}},
+                              run.level.knotValue(k) + above - up, o.ground_roughness_m);
+            } else {
+                system.addRow(kPrior, {{run.level.unknown(k), 1.0}}, 0.0, 1e3);
+            }
+            if (k == 0) continue;
+            const double dt = run.level.time(k) - run.level.time(k - 1);
+            const Eigen::Vector3d step =
+                trackAt(run, run.level.time(k)) - trackAt(run, run.level.time(k - 1));
+            if (run.level_known[k] && run.level_known[k - 1]) {
+                const double sigma =
+                    std::sqrt(squared(o.ground_climb_m_per_sqrt_m) * step.head<2>().norm() + squared(0.005));
+                system.addRow(kClimb, {{run.level.unknown(k), 1.0}, {run.level.unknown(k - 1), -1.0}},
+                              run.level.knotValue(k - 1) - run.level.knotValue(k), sigma);
+            } else {
+                system.addRow(kBlindClimb,
+                              {{run.correction.unknown(k, 2), 1.0}, {run.correction.unknown(k - 1, 2), -1.0}},
+                              -step.z(), o.blind_climb_m_per_sqrt_s * std::sqrt(dt));
+            }
+        }
+    }
+
+    // ---- crossovers
+
+    std::vector<GroundSample> groundSamples() const {
+        std::vector<GroundSample> samples;
+        for (std::size_t r = 0; r < runs_.size(); ++r) {
+            const RunModel& run = runs_[r];
+            for (std::size_t i = 0; i < run.size(); ++i) {
+                if (!present(run.above_ground_m[i])) continue;
+                Attitude attitude = run.start->attitudes[i].attitude;
+                attitude.yaw_rad = trueYaw(run, i);
+                const Eigen::Vector3d ray =
+                    run.log->range_lever_arm_m - run.log->value(Channel::Range, i) * Eigen::Vector3d::UnitZ();
+                samples.push_back({static_cast<std::uint32_t>(r), static_cast<std::uint32_t>(i), run.time(i),
+                                   run.track_m[i] + rotationEnuFromBody(attitude) * ray});
+            }
+        }
+        return samples;
+    }
+
+    void findPairs() {
+        const std::vector<GroundSample> samples = groundSamples();
+        pairs_ = findCrossovers(samples, options_.joint.crossovers);
+        mark_passes_.clear();
+        for (const ControlMark& mark : survey_.marks) {
+            if (mark.role != MarkRole::Control) continue;
+            for (const MarkPass& pass : findMarkPasses(samples, mark.enu_m, options_.joint.crossovers)) {
+                mark_passes_.push_back(pass);
+            }
+        }
+    }
+
+    double misfit() const {
+        double sum = 0.0;
+        for (const Crossover& pair : pairs_) sum += squared(pair.misfit_m);
+        return pairs_.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(pairs_.size()));
+    }
+
+    // Planes fit where the ground is even; where it is not, they fit the worse the farther apart the passes
+    // are, or may be.
+    double pairSigma(const Eigen::Vector2d& slope, double roughness_m, double apart_m2) const {
+        const JointOptions& o = options_.joint;
+        const double uneven = slope.norm() / (slope.norm() + o.pair_even_slope);
+        const double sigma =
+            o.pair_sigma_m + uneven * (o.pair_uneven_m + o.pair_apart_per_m * std::min(apart_m2, 4.0));
+        return std::sqrt((squared(sigma) + squared(0.5 * roughness_m) + slope.squaredNorm() * apart_m2) /
+                         o.pair_weight);
+    }
+
+    double planVariance(std::size_t run, std::size_t epoch) const {
+        const RunModel& r = runs_[run];
+        return r.plan_variance_m2.empty() ? 1.0 : r.plan_variance_m2[r.at[epoch].knot];
+    }
+
+    void ground(const RunModel& run, std::size_t epoch, const Eigen::Vector2d& slope, double sign) {
+        position(run, epoch, 2, sign);
+        // Half of what a slope tells of the plan: the ground is a plane only near by.
+        const double share = options_.joint.pair_plan_share;
+        position(run, epoch, 0, -sign * share * slope.x());
+        position(run, epoch, 1, -sign * share * slope.y());
+    }
+
+    void addPairs(SparseLeastSquares& system) {
+        for (const Crossover& pair : pairs_) {
+            row_.clear();
+            ground(runs_[pair.run_a], pair.epoch_a, pair.slope, 1.0);
+            ground(runs_[pair.run_b], pair.epoch_b, pair.slope, -1.0);
+            system.addRow(kPair, row_.all(), -pair.misfit_m,
+                          pairSigma(pair.slope, pair.roughness_m,
+                                    squared(pair.apart_m) + planVariance(pair.run_a, pair.epoch_a) +
+                                        planVariance(pair.run_b, pair.epoch_b)));
+        }
+        for (const MarkPass& pass : mark_passes_) {
+            row_.clear();
+            ground(runs_[pass.run], pass.epoch, pass.slope, 1.0);
+            // A single pass does not tell the slope across its way.
+            const double aside = squared(0.2 * pass.apart_m);
+            system.addRow(kMarkPass, row_.all(), -pass.misfit_m,
+                          std::hypot(pairSigma(pass.slope, pass.roughness_m,
+                                               squared(pass.apart_m) + planVariance(pass.run, pass.epoch)),
+                                     std::sqrt(aside)));
+        }
+    }
+
+    // ---- the answer
+
+    void takeSolution(const Eigen::VectorXd& solution) {
+        const auto add = [&](Scalar& s) {
+            s.value += solution[static_cast<Eigen::Index>(s.unknown)];
+        };
+        add(iron_sin_);
+        add(iron_cos_);
+        for (RunModel& run : runs_) {
+            for (std::size_t i = 0; i < run.size(); ++i) {
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    const Chain::Place& at = run.at[i];
+                    const auto a = static_cast<Eigen::Index>(axis);
+                    const double here =
+                        solution[static_cast<Eigen::Index>(run.correction.unknown(at.knot, axis))];
+                    const double next =
+                        at.fraction > 0.0
+                            ? solution[static_cast<Eigen::Index>(run.correction.unknown(at.knot + 1, axis))]
+                            : here;
+                    run.track_m[i][a] += here + at.fraction * (next - here);
+                }
+            }
+            run.level.take(solution);
+            for (GnssSegment& segment : run.segments) segment.error.take(solution);
+            if (run.has_barometer) {
+                run.drift.take(solution);
+                run.gust.take(solution);
+            }
+            if (run.has_heading) {
+                run.psi.take(solution);
+                if (run.has_gyro) run.turn.take(solution);
+                for (Scalar* s : {&run.iron_sin, &run.iron_cos, &run.scale, &run.axes, &run.gyro_bias})
+                    add(*s);
+            }
+        }
+    }
+
+    void takePlanVariances(SparseLeastSquares& system) {
+        for (RunModel& run : runs_) {
+            run.plan_variance_m2.resize(run.correction.knots());
+            for (std::size_t k = 0; k < run.correction.knots(); ++k) {
+                const std::size_t e = run.correction.unknown(k, 0);
+                const std::size_t n = run.correction.unknown(k, 1);
+                run.plan_variance_m2[k] = 0.5 * (system.covariance(e, e) + system.covariance(n, n));
+            }
+        }
+    }
+
+    // Before the crossovers are used they test the track: squared misfits over what its covariance predicts.
+    // Passes close in time share their errors, so they do not count.
+    double heightInflation(SparseLeastSquares& system) {
+        constexpr double kApart_s = 120.0;
+        constexpr double kOutlier = 25.0;
+        constexpr std::size_t kFewest = 30;
+        constexpr double kGreatest = 4.0;
+        if (!options_.joint.use_crossovers) return 1.0;
+        findPairs();
+        double sum = 0.0;
+        std::size_t n = 0;
+        const auto heightVariance = [&](std::uint32_t run, std::uint32_t epoch) {
+            const std::size_t u = runs_[run].correction.unknown(runs_[run].at[epoch].knot, 2);
+            return system.covariance(u, u);
+        };
+        for (const Crossover& pair : pairs_) {
+            const double apart_s =
+                std::abs(runs_[pair.run_a].time(pair.epoch_a) - runs_[pair.run_b].time(pair.epoch_b));
+            if (pair.run_a == pair.run_b && apart_s < kApart_s) continue;
+            const double plan =
+                planVariance(pair.run_a, pair.epoch_a) + planVariance(pair.run_b, pair.epoch_b);
+            const double own =
+                squared(pairSigma(pair.slope, pair.roughness_m, squared(pair.apart_m) + plan)) *
+                options_.joint.pair_weight;
+            const double predicted =
+                heightVariance(pair.run_a, pair.epoch_a) + heightVariance(pair.run_b, pair.epoch_b) + own;
+            sum += std::min(kOutlier, squared(pair.misfit_m) / predicted);
+            ++n;
+        }
+        if (n < kFewest) return 1.0;
+        // Crossovers bind a track more than they test it: what they leave is judged with a margin.
+        constexpr double kMargin = 1.4;
+        return std::clamp(kMargin * sum / static_cast<double>(n), 1.0, kGreatest);
+    }
+
+    void wantCovariances(SparseLeastSquares& system) const {
+        for (const RunModel& run : runs_) {
+            for (std::size_t k = 0; k < run.correction.knots(); ++k) {
+                const std::size_t next = std::min(k + 1, run.correction.knots() - 1);
+                for (std::size_t a = 0; a < 3; ++a) {
+                    for (std::size_t b = 0; b < 3; ++b) {
+                        system.wantCovariance(run.correction.unknown(k, a), run.correction.unknown(k, b));
+                        system.wantCovariance(run.correction.unknown(k, a), run.correction.unknown(next, b));
+                    }
+                }
+            }
+        }
+    }
+
+    Trajectory trajectory(const RunModel& run, SparseLeastSquares& system) const {
+        Trajectory result;
+        result.run_id = run.start->run->id;
+        result.epochs = run.start->trajectory.epochs;
+        for (std::size_t i = 0; i < run.size(); ++i) {
+            TrajectoryEpoch& epoch = result.epochs[i];
+            epoch.position_enu_m = run.track_m[i];
+            const std::size_t before = i == 0 ? 0 : i - 1;
+            const std::size_t after = std::min(i + 1, run.size() - 1);
+            if (after > before) {
+                epoch.velocity_enu_mps =
+                    (run.track_m[after] - run.track_m[before]) / (run.time(after) - run.time(before));
+            }
+            const Chain::Place& at = run.at[i];
+            const std::size_t next = std::min(at.knot + 1, run.correction.knots() - 1);
+            const double g = 1.0 - at.fraction;
+            const double f = at.fraction;
+            const double dt = next > at.knot ? run.correction.time(next) - run.correction.time(at.knot) : 1.0;
+            Eigen::Matrix3d here, there, cross;
+            for (std::size_t a = 0; a < 3; ++a) {
+                for (std::size_t b = 0; b < 3; ++b) {
+                    const auto ia = static_cast<Eigen::Index>(a);
+                    const auto ib = static_cast<Eigen::Index>(b);
+                    here(ia, ib) = system.covariance(run.correction.unknown(at.knot, a),
+                                                     run.correction.unknown(at.knot, b));
+                    there(ia, ib) =
+                        system.covariance(run.correction.unknown(next, a), run.correction.unknown(next, b));
+                    cross(ia, ib) = system.covariance(run.correction.unknown(at.knot, a),
+                                                      run.correction.unknown(next, b));
+                }
+            }
+            Eigen::Matrix3d p = g * g * here + f * f * there + g * f * (cross + cross.transpose());
+            const Eigen::Vector3d inflate(std::sqrt(kPlanInflation), std::sqrt(kPlanInflation),
+                                          std::sqrt(height_inflation_));
+            p = inflate.asDiagonal() * p * inflate.asDiagonal();
+            epoch.covariance.setZero();
+            epoch.covariance.topLeftCorner<3, 3>() = p;
+            epoch.covariance.bottomRightCorner<3, 3>() =
+                (here + there - cross - cross.transpose()) / squared(dt);
+            if (run.has_heading) {
+                epoch.attitude.yaw_rad = wrapAngle(trueYaw(run, i));
+                const std::size_t unknown = run.has_gyro ? run.turn.unknown(run.turn_at[i].knot)
+                                                         : run.psi.unknown(run.psi_at[i].knot);
+                epoch.sigma_heading_rad =
+                    std::sqrt(system.covariance(unknown, unknown) + squared(radians(0.5)));
+            }
+        }
+        return result;
+    }
+
+    // What the covariance leaves out in plan (linear models, crossovers that share points), from simulated
+    // surveys at three levels of faults.
+    static constexpr double kPlanInflation = 1.25;
+
+    const Survey& survey_;
+    LocalFrame frame_;
+    const FusionOptions& options_;
+    Progress& progress_;
+    std::stop_token stop_;
+    std::vector<RunModel> runs_;
+    Scalar iron_sin_, iron_cos_;
+    std::size_t unknowns_ = 0;
+    double height_inflation_ = 1.0;
+    std::vector<Crossover> pairs_;
+    std::vector<MarkPass> mark_passes_;
+    RowBuilder row_;
+    std::vector<double> scratch_;
+    std::size_t turn_interval_ = 0;
+};
+
+}  // namespace
+
+Result<JointSolution> adjustJointly(const Survey& survey, std::span<const RunStart> starts,
+                                    const FusionOptions& options, Progress& progress, std::stop_token stop) {
+    return JointAdjuster(survey, starts, options, progress, std::move(stop)).adjust();
+}
+
+}  // namespace terrawalk

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <span>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "fusion/crossovers.hpp"
+#include "fusion/fusion_options.hpp"
+#include "fusion/sensor_readings.hpp"
+#include "survey/progress.hpp"
+#include "survey/result.hpp"
+#include "survey/survey.hpp"
+#include "survey/trajectory.hpp"
+
+namespace terrawalk {
+
+/// A run as the filter leaves it to the adjustment.
+struct RunStart {
+    const Run* run = nullptr;
+    std::vector<EpochAttitude> attitudes;  ///< one for each epoch
+    RunReference reference;
+    Trajectory trajectory;         ///< of the filter, smoothed
+    std::vector<bool> gnss_gated;  ///< epochs whose GNSS position the filter rejected; may be empty
+};
+
+struct JointSolution {
+    std::vector<Trajectory> trajectories;  ///< in the order of the runs
+    std::vector<Crossover> crossovers;     ///< with the misfits that are left
+    AdjustmentSummary summary;
+};
+
+/// One sparse least-squares adjustment of all runs: track, GNSS, barometer, heading and flow errors, held
+/// together by ties to known marks and by crossovers, pairs of passes over the same ground.
+///
+///     GNSS   z = p + g + noise           g: Gauss-Markov, begun anew where the fix code changes
+///     baro   h = u + b + w + noise       b: random walk, w: Gauss-Markov (gusts)
+///     flow   p(t2) - p(t1) = sum R(yaw - psi - A sin yaw - B cos yaw) f dt / scale
+///     gyro   change of the compass error from the turn that the gyro saw
+///     ground the ground below the walk climbs little from one second to the next
+///     pair   heights of two passes agree; the slope turns plan errors into height
+///
+/// Corrections to the filter's track are linear between knots. Outliers are down-weighted (Huber, Cauchy),
+/// noise sigmas are scaled by variance components. Covariances come from the selected inverse.
+/// Errors: BadData when the rows do not determine the track; Cancelled. Pure; the result does not depend on
+/// the number of threads. Source: sections 3 and 6 of the project's estimation notes; Koch 1999.
+[[nodiscard]] Result<JointSolution> adjustJointly(const Survey& survey, std::span<const RunStart> starts,
+                                                  const FusionOptions& options, Progress& progress,
+                                                  std::stop_token stop);
+
+}  // namespace terrawalk
