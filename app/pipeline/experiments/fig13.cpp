@@ -15,7 +15,7 @@ namespace terrawalk {
 
 namespace {
 
-constexpr double kClose = 0.01;  // of the least loss that any tuner found
+constexpr double kClose = 0.05;  // of the least loss that any tuner found
 
 struct TimedSearch {
     OptimiserResult found;
@@ -78,12 +78,12 @@ Result<ExperimentReport> runFig13(const ExperimentOptions& options, Progress& pr
 
     ExperimentReport report{.title = "Fig 13: time and evaluations by tuner"};
     report.summary.columns = {"tuner",       "median time [s]",      "least",         "ms per evaluation",
-                              "evaluations", "median to within 1 %", "reached it in", "paper 000, time"};
+                              "evaluations", "median to within 5 %", "reached it in", "paper 000, time"};
     report.data.columns = {"tuner",       "repeat",    "time [s]",
-                           "evaluations", "loss [m2]", "evaluations to within 1 % of the least"};
+                           "evaluations", "loss [m2]", "evaluations to within 5 % of the least"};
     PlotPanel times{.title = fmt::format("{} evaluations", budget.evaluations),
                     .y = {.label = "time [s]", .logarithmic = true}};
-    PlotPanel counts{.title = "Until the loss is within 1 % of the least that any tuner found",
+    PlotPanel counts{.title = "Until the loss is within 5 % of the least that any tuner found",
                      .y = {.label = "evaluations", .logarithmic = true}};
     for (std::size_t t = 0; t < tuners.size(); ++t) {
         std::vector<double> seconds;
