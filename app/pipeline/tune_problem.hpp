@@ -58,8 +58,9 @@ struct TunableProblem {
     std::function<void(std::span<const double> candidates, std::span<const std::size_t> parts,
                        std::span<double> losses, const std::stop_token& stop)>
         losses;
-    bool squared_metres = false;     ///< the root of the mean over the parts is an error in metres
-    std::size_t profile_points = 0;  ///< places at which each parameter's effect is looked at
+    bool squared_metres = false;         ///< the root of the mean over the parts is an error in metres
+    std::size_t profile_points = 0;      ///< places at which each parameter's effect is looked at
+    std::size_t candidates_at_once = 0;  ///< between two looks at progress; 0: as many as a search asks for
     /// What a search takes when nothing else is asked for.
     std::size_t usual_population = 100;
     std::size_t usual_iterations = 1000;

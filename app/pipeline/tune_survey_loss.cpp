@@ -28,6 +28,7 @@ constexpr std::size_t kPopulation = 8;
 constexpr std::size_t kIterations = 6;
 constexpr std::size_t kLeftOutGroups = 3;
 constexpr std::size_t kProfilePoints = 5;
+constexpr std::size_t kCandidatesAtOnce = 4;
 
 /// Settings that stand for one physical quantity and are turned together.
 struct Factor {
@@ -262,6 +263,7 @@ Result<TunableProblem> surveyProblem(const Survey& survey, const PipelineConfig&
                            .marks = measured->marks,
                            .components = measured->components,
                            .profile_points = kProfilePoints,
+                           .candidates_at_once = kCandidatesAtOnce,
                            .usual_population = kPopulation,
                            .usual_iterations = kIterations,
                            .left_out_groups = kLeftOutGroups};

@@ -336,7 +336,7 @@ TEST(ReportJson, KeysStandInTheirOrderAndMissingIsNull) {
     EXPECT_THAT(
         keys, ElementsAre("format", "survey", "program_version", "method", "seed", "figures", "statements",
                           "limitations", "warnings", "headline", "accuracy", "residuals", "missing_residuals",
-                          "marks", "surface", "runs", "tuning", "settings", "inputs"));
+                          "marks", "adjustment", "surface", "runs", "tuning", "settings", "inputs"));
     EXPECT_TRUE(json["tuning"].is_null());
     EXPECT_EQ(json["format"], "terrawalk-report 1");
     EXPECT_TRUE(json["residuals"][0]["difference_enu_m"][0].is_null());
