@@ -15,9 +15,10 @@ std::vector<CLI::Option*> addTuneOptions(CLI::App& command, TuneOptions& o) {
         command.add_flag("--hyperparameters", o.hyperparameters,
                          "aukf: tune alpha, beta and kappa as well as the nine process noises");
     return {addChoice(command, "--optimizer,--optimiser", o.optimiser, kOptimiserNames, "Who searches"),
-            count("--population", o.population, 8, 100'000, "Candidates that the search keeps [aukf: 100]"),
+            count("--population", o.population, 8, 100'000,
+                  "Candidates that the search keeps [aukf 100, others 8]"),
             count("--iterations", o.iterations, 1, 10'000'000,
-                  "How often each of them is tried anew [aukf: 1000]"),
+                  "How often each of them is tried anew [aukf 1000, others 6]"),
             count("--restarts", o.restarts, 1, 64, "Independent searches, each of that budget [1]"),
             hyperparameters,
             command

@@ -159,18 +159,37 @@ struct SearchOutcome {
 Result<SearchOutcome> run(const TunableProblem& problem, const Search& search, Progress& progress,
                           const std::stop_token& stop, const TuneRecording& recording) {
     BestLossProgress best_progress(progress, problem, search.parts.size(), search.step);
-    const Objective objective{.evaluate =
-                                  [&](std::span<const double> candidates, std::span<double> losses) {
-                                      problem.losses(candidates, search.parts, losses, stop);
-                                      if (!stop.stop_requested()) best_progress.offer(losses);
-                                  },
-                              .losses = problem.components.size(),
-                              .fingerprint = scramble({problem.fingerprint, search.number})};
+    const std::size_t d = problem.parameters.size();
+    const std::size_t m = problem.components.size();
+    std::atomic<std::size_t> evaluated = 0;
+    // A search speaks up after a whole generation only, which may take minutes.
+    const auto evaluate = [&](std::span<const double> candidates, std::span<double> losses) {
+        const std::size_t n = candidates.size() / d;
+        const std::size_t step = problem.candidates_at_once == 0 ? n : problem.candidates_at_once;
+        for (std::size_t first = 0; first < n; first += step) {
+            const std::size_t count = std::min(step, n - first);
+            const std::span<double> some = losses.subspan(first * m, count * m);
+            problem.losses(candidates.subspan(first * d, count * d), search.parts, some, stop);
+            if (stop.stop_requested()) return;
+            best_progress.offer(some);
+            evaluated += count;
+            if (step < n) {
+                best_progress.report(
+                    static_cast<double>(evaluated) / static_cast<double>(evaluationLimit(search.options)),
+                    search.step);
+            }
+        }
+    };
+    const Objective objective{
+        .evaluate = evaluate, .losses = m, .fingerprint = scramble({problem.fingerprint, search.number})};
     const SearchBox box = boxOf(problem);
     Recording of_search;
     if (recording.resume_from != nullptr && search.number < recording.resume_from->size()) {
         of_search.resume_from = &(*recording.resume_from)[search.number];
-        for (const auto& losses : of_search.resume_from->islands) best_progress.offer(losses);
+        for (const auto& losses : of_search.resume_from->islands) {
+            best_progress.offer(losses);
+            evaluated += losses.size() / m;
+        }
     }
     if (recording.on_search) {
         recording.on_search(search.number, searchFingerprint(objective, box, search.options));

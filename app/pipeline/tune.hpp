@@ -18,8 +18,8 @@ namespace terrawalk {
 
 struct TuneOptions {
     OptimiserKind optimiser = OptimiserKind::Isma;
-    std::size_t population = 0;    ///< 0: what is usual for the problem, aukf 100
-    std::size_t iterations = 0;    ///< 0: the same, aukf 1000
+    std::size_t population = 0;    ///< 0: what is usual, aukf 100, others 8
+    std::size_t iterations = 0;    ///< 0: the same, aukf 1000, others 6
     std::size_t restarts = 1;      ///< independent searches, each of the whole budget; the best is taken
     bool hyperparameters = false;  ///< alpha, beta and kappa as well
     std::uint64_t seed = 1;

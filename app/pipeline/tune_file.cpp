@@ -104,7 +104,7 @@ ordered_json overlay(const TuneOutcome& outcome) {
 }
 
 std::string counted(std::size_t n, const std::string& what) {
-    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : what.ends_with("ch") ? "es" : "s");
 }
 
 std::string lossLine(const TuneOutcome& outcome, const char* label, double loss, std::size_t parts) {
@@ -244,7 +244,9 @@ std::string toText(const TuneOutcome& outcome) {
     text += lossLine(outcome, "loss after", totalLoss(outcome.after), n) + "\n";
     if (outcome.held_out) {
         text += lossLine(outcome, "on parts left out, before", outcome.held_out->before, n) + "\n";
-        text += lossLine(outcome, "on parts left out, after", outcome.held_out->after, n) + "\n";
+        text += lossLine(outcome, "on parts left out, after", outcome.held_out->after, n) +
+                fmt::format(" ({} of {} evaluations)\n", counted(outcome.held_out->groups, "search"),
+                            outcome.held_out->evaluations_each);
     }
     std::size_t width = 0;
     for (const TunedParameter& p : outcome.parameters) width = std::max(width, p.name.size());

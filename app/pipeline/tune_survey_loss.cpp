@@ -24,10 +24,11 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLargestFactor = 5.0;
-constexpr std::size_t kPopulation = 10;
-constexpr std::size_t kIterations = 8;
-constexpr std::size_t kLeftOutGroups = 4;
-constexpr std::size_t kProfilePoints = 7;
+constexpr std::size_t kPopulation = 8;
+constexpr std::size_t kIterations = 6;
+constexpr std::size_t kLeftOutGroups = 3;
+constexpr std::size_t kProfilePoints = 5;
+constexpr std::size_t kCandidatesAtOnce = 4;
 
 /// Settings that stand for one physical quantity and are turned together.
 struct Factor {
@@ -35,22 +36,36 @@ struct Factor {
     std::vector<std::string> keys;
 };
 
-std::vector<Factor> factorsOf(FusionMethod) {
-    return {
+std::vector<Factor> factorsOf(FusionMethod method) {
+    std::vector<Factor> factors{
         {"GNSS error",
          {"fusion.gnss.sigma_single_m", "fusion.gnss.sigma_differential_m", "fusion.gnss.sigma_float_m",
           "fusion.gnss.sigma_fixed_m", "fusion.gnss.sigma_single_up_m", "fusion.gnss.sigma_differential_up_m",
           "fusion.gnss.sigma_float_up_m", "fusion.gnss.sigma_fixed_up_m"}},
-        {"GNSS correlation time", {"fusion.gnss.correlation_s", "fusion.gnss.correlation_fixed_s"}},
         {"barometer drift", {"fusion.barometer.drift_m_per_sqrt_min"}},
         {"barometer gusts", {"fusion.barometer.gust_sigma_m"}},
-        {"heading error", {"fusion.attitude.sigma_heading_deg"}},
         {"flow variance", {"fusion.flow.variance_m2ps2", "fusion.flow.variance_per_v2"}},
+    };
+    const std::vector<Factor> of_filter{
+        {"GNSS correlation time", {"fusion.gnss.correlation_s", "fusion.gnss.correlation_fixed_s"}},
+        {"heading error", {"fusion.attitude.sigma_heading_deg"}},
         {"flow scale error", {"fusion.flow.scale_sigma"}},
         {"velocity process noise",
          {"fusion.process.noise.velocity_e_m2ps3", "fusion.process.noise.velocity_n_m2ps3",
           "fusion.process.noise.velocity_u_m2ps3"}},
     };
+    const std::vector<Factor> of_adjustment{
+        {"GNSS correlation time", {"fusion.lasting.gnss_correlation_s"}},
+        {"heading error",
+         {"fusion.lasting.heading_sigma_deg", "fusion.lasting.hard_iron_sigma_deg",
+          "fusion.lasting.hard_iron_run_sigma_deg"}},
+        {"flow scale error", {"fusion.lasting.flow_scale_sigma", "fusion.lasting.flow_axes_sigma"}},
+        {"crossover misfit",
+         {"fusion.joint.pair_sigma_m", "fusion.joint.pair_uneven_m", "fusion.joint.pair_apart_per_m"}},
+    };
+    const auto& more = method == FusionMethod::Terrawalk ? of_adjustment : of_filter;
+    factors.insert(factors.end(), more.begin(), more.end());
+    return factors;
 }
 
 std::vector<TunableParameter> parametersOf(const PipelineConfig& config) {
@@ -102,8 +117,8 @@ std::vector<TestStand> testStands(const Survey& survey, const StandOptions& opti
     return stands;
 }
 
-/// The survey as it would be had nobody noted the stands on these marks.
-Survey withoutStands(Survey survey, const std::vector<ControlMark>& marks, std::size_t fold) {
+/// The survey as it would be had nobody measured these marks.
+Survey withoutMarks(Survey survey, const std::vector<ControlMark>& marks, std::size_t fold) {
     const auto leftOut = [&](const std::string& name) {
         for (std::size_t part = fold; part < marks.size(); part += kFolds) {
             if (marks[part].name == name) return true;
@@ -113,7 +128,9 @@ Survey withoutStands(Survey survey, const std::vector<ControlMark>& marks, std::
     for (Run& run : survey.runs) {
         if (run.target && leftOut(*run.target)) run.target.reset();
         std::erase_if(run.stops, [&](const Stop& stop) { return leftOut(stop.point); });
+        if (run.start && leftOut(*run.start)) run.start.reset();
     }
+    std::erase_if(survey.marks, [&](const ControlMark& mark) { return leftOut(mark.name); });
     return survey;
 }
 
@@ -157,7 +174,7 @@ std::optional<Measured> measuredAtMarks(const Survey& survey, const FusionOption
     for (const ControlMark& mark : measured.marks) measured.parts.push_back({mark.name, mark.name});
     auto folds = std::make_shared<std::vector<Survey>>();
     for (std::size_t fold = 0; fold < kFolds; ++fold) {
-        folds->push_back(withoutStands(survey, measured.marks, fold));
+        folds->push_back(withoutMarks(survey, measured.marks, fold));
     }
     measured.loss_meaning =
         "squared distance between the ground below the array and the control marks that it stood on, each "
@@ -246,6 +263,7 @@ Result<TunableProblem> surveyProblem(const Survey& survey, const PipelineConfig&
                            .marks = measured->marks,
                            .components = measured->components,
                            .profile_points = kProfilePoints,
+                           .candidates_at_once = kCandidatesAtOnce,
                            .usual_population = kPopulation,
                            .usual_iterations = kIterations,
                            .left_out_groups = kLeftOutGroups};

@@ -337,6 +337,7 @@ TEST(ReportJson, KeysStandInTheirOrderAndMissingIsNull) {
         keys, ElementsAre("format", "survey", "program_version", "method", "seed", "figures", "statements",
                           "limitations", "warnings", "headline", "accuracy", "residuals", "missing_residuals",
                           "marks", "adjustment", "surface", "runs", "tuning", "settings", "inputs"));
+    EXPECT_TRUE(json["tuning"].is_null());
     EXPECT_EQ(json["format"], "terrawalk-report 1");
     EXPECT_TRUE(json["residuals"][0]["difference_enu_m"][0].is_null());
     EXPECT_TRUE(json["residuals"][0]["sigma_enu_m"][2].is_null());
@@ -345,6 +346,37 @@ TEST(ReportJson, KeysStandInTheirOrderAndMissingIsNull) {
     EXPECT_TRUE(json["runs"][0]["cut_off_line"].is_null());
     EXPECT_THAT(json["warnings"], IsEmpty());
     EXPECT_TRUE(json["warnings"].is_array());
+}
+
+// What was tuned, by whom, on what, and whether it was used.
+TEST(Report, TellsOfATuning) {
+    SurveyReport report = madeReport();
+    EXPECT_THAT(reportHtml(report), Not(HasSubstr("id=\"tuning\"")));
+    report.tuning = TuningRecord{.survey = "Orchard <1>",
+                                 .method = "aukf",
+                                 .optimiser = "isma",
+                                 .seed = 77,
+                                 .evaluations = 12345,
+                                 .loss_before = 56.644,
+                                 .loss_after = 43.953,
+                                 .left_out_before = 56.644,
+                                 .left_out_after = HUGE_VAL,
+                                 .in_use = false,
+                                 .decision = "Not adopted, for a reason.",
+                                 .warnings = {"a warning"},
+                                 .marks = {{"P01"}, {"P02"}}};
+    const std::string html = reportHtml(report);
+    EXPECT_TRUE(isWellFormedXml(html));
+    for (const char* told : {"id=\"tuning\"", "Orchard &lt;1&gt;", "seed 77", "12\u202f345", "43.953",
+                             "not used", "Not adopted, for a reason.", "a warning", "P01, P02"}) {
+        EXPECT_THAT(html, HasSubstr(told));
+    }
+    const auto json = nlohmann::json::parse(reportJson(report)).at("tuning");
+    EXPECT_EQ(json.at("seed"), 77);
+    EXPECT_EQ(json.at("in_use"), false);
+    EXPECT_EQ(json.at("loss_after"), 43.953);
+    EXPECT_TRUE(json.at("left_out_after").is_null());
+    EXPECT_THAT(json.at("marks"), ElementsAre("P01", "P02"));
 }
 
 TEST(ReportJson, NumbersReadBackToTheSameBits) {

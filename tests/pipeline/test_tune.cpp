@@ -393,6 +393,50 @@ TEST(TunableProblem, SaysWhyThereIsNone) {
     EXPECT_FALSE(tunableProblem(checks.survey, aukf(), false, {}));
 }
 
+class MarksLeftOut : public testing::TestWithParam<FusionMethod> {};
+
+// Marks are dealt to two folds: in the first the estimator knows nothing of P01 and P03, in the second
+// nothing of P02. So P03's error cannot depend on where P01 was measured; P02's can.
+TEST_P(MarksLeftOut, TheEstimatorKnowsNothingOfTheMarkThatTests) {
+    PipelineConfig config;
+    config.fusion.method = GetParam();
+    const Survey survey = simulated(3, 0).survey;
+    Survey moved = survey;
+    moved.marks[0].enu_m.x() += 0.4;
+    const auto problem = tunableProblem(survey, config, false, {});
+    const auto of_moved = tunableProblem(moved, config, false, {});
+    ASSERT_TRUE(problem) << problem.error().text();
+    ASSERT_TRUE(of_moved);
+    ASSERT_EQ(problem->parts.size(), 3U);
+    EXPECT_EQ(problem->parts[2].mark, "P03");
+    const std::vector<std::size_t> all{0, 1, 2};
+    std::vector<double> before(2);
+    problem->losses(problem->start(), all, before, {});
+    EXPECT_NEAR(before[0], 1.0, 1e-12);
+    EXPECT_NEAR(before[1], 1.0, 1e-12);
+    // Losses are shares of a sum that P01 has a part in, so ratios of two candidates are compared.
+    std::vector<double> other = problem->start();
+    other[0] = 0.5;
+    const auto ratio = [&](const TunableProblem& of, std::size_t part) {
+        std::vector<double> candidates = of.start();
+        candidates.insert(candidates.end(), other.begin(), other.end());
+        std::vector<double> losses(4);
+        of.losses(candidates, std::span(&part, 1), losses, {});
+        return losses[2] / losses[0];
+    };
+    EXPECT_NE(ratio(*problem, 2), 1.0);
+    EXPECT_NEAR(ratio(*of_moved, 2), ratio(*problem, 2), 1e-9);
+    EXPECT_NE(ratio(*of_moved, 0), ratio(*problem, 0));
+    // A single mark tells nothing of the marks between.
+    Survey few = survey;
+    few.runs.resize(1);
+    const auto none = tunableProblem(few, config, false, {});
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().kind, ErrorKind::BadData);
+}
+INSTANTIATE_TEST_SUITE_P(Methods, MarksLeftOut, testing::Values(FusionMethod::Ukf, FusionMethod::Terrawalk),
+                         [](const auto& named) { return std::string(name(named.param)); });
+
 TEST(TunableProblem, TheFingerprintFollowsDataAndConfiguration) {
     const Survey survey = simulated().survey;
     const auto print = [&](const Survey& of, const PipelineConfig& config) {

@@ -9,11 +9,11 @@ Result<ExperimentReport> runFig10(const ExperimentOptions& options, Progress& pr
                                   std::stop_token stop) {
     const LossComparison comparison{.title = "Fig 10: loss by tuner, nine process noises",
                                     .budget = {.dimensions = kNoiseDimensions,
-                                               .population = options.quick ? 20U : 50U,
-                                               .evaluations = options.quick ? 300U : 5000U},
+                                               .population = options.quick ? 16U : 50U,
+                                               .evaluations = options.quick ? 200U : 5000U},
                                     .paper_isma = "245.24",
                                     .paper_others = "higher than ISMA's"};
-    return compareTuners(comparison, options.quick ? 3 : 10, options, progress, stop);
+    return compareTuners(comparison, options.quick ? 2 : 10, options, progress, stop);
 }
 
 }  // namespace terrawalk

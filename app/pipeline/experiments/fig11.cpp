@@ -10,11 +10,11 @@ Result<ExperimentReport> runFig11(const ExperimentOptions& options, Progress& pr
     const LossComparison comparison{
         .title = "Fig 11: loss by tuner, nine process noises and alpha, beta, kappa",
         .budget = {.dimensions = kAllDimensions,
-                   .population = options.quick ? 20U : 50U,
-                   .evaluations = options.quick ? 300U : 5000U},
+                   .population = options.quick ? 16U : 50U,
+                   .evaluations = options.quick ? 200U : 5000U},
         .paper_isma = "244.25",
         .paper_others = "higher than with nine, but for SMA"};
-    auto report = compareTuners(comparison, options.quick ? 3 : 10, options, progress, stop);
+    auto report = compareTuners(comparison, options.quick ? 2 : 10, options, progress, stop);
     if (!report) return report;
     report->notes.emplace_back(
         "an extended or cubature Kalman filter has no alpha, beta and kappa: these do nothing there");

@@ -15,7 +15,7 @@ namespace terrawalk {
 
 namespace {
 
-constexpr double kClose = 0.01;  // of the least loss that any tuner found
+constexpr double kClose = 0.05;  // of the least loss that any tuner found
 
 struct TimedSearch {
     OptimiserResult found;
@@ -78,12 +78,12 @@ Result<ExperimentReport> runFig13(const ExperimentOptions& options, Progress& pr
 
     ExperimentReport report{.title = "Fig 13: time and evaluations by tuner"};
     report.summary.columns = {"tuner",       "median time [s]",      "least",         "ms per evaluation",
-                              "evaluations", "median to within 1 %", "reached it in", "paper 000, time"};
+                              "evaluations", "median to within 5 %", "reached it in", "paper 000, time"};
     report.data.columns = {"tuner",       "repeat",    "time [s]",
-                           "evaluations", "loss [m2]", "evaluations to within 1 % of the least"};
+                           "evaluations", "loss [m2]", "evaluations to within 5 % of the least"};
     PlotPanel times{.title = fmt::format("{} evaluations", budget.evaluations),
                     .y = {.label = "time [s]", .logarithmic = true}};
-    PlotPanel counts{.title = "Until the loss is within 1 % of the least that any tuner found",
+    PlotPanel counts{.title = "To within 5 % of the least loss of all",
                      .y = {.label = "evaluations", .logarithmic = true}};
     for (std::size_t t = 0; t < tuners.size(); ++t) {
         std::vector<double> seconds;
@@ -120,7 +120,7 @@ Result<ExperimentReport> runFig13(const ExperimentOptions& options, Progress& pr
         const auto search =
             timedSearch(ground->training, OptimiserKind::Isma, whole, options.seed, part, stop);
         if (!search) return tl::unexpected(search.error());
-        report.summary.rows.push_back({"ISMA, the paper's budget",
+        report.summary.rows.push_back({"ISMA, whole budget",
                                        search->seconds,
                                        search->seconds,
                                        1000.0 * search->seconds / static_cast<double>(whole.evaluations),
@@ -137,6 +137,9 @@ Result<ExperimentReport> runFig13(const ExperimentOptions& options, Progress& pr
                     "iterations); wall time on this machine with all threads that the program may use, so it "
                     "differs from run to run; the number of evaluations does not",
                     repeats, budget.population, budget.evaluations),
+        "within 5 %: of the least loss that any of these searches found; whole budget: population 100, 1000 "
+        "iterations, as in the paper, once",
+        "ISMA: our default form; printed: as the paper has it",
         "ISMA, SMA, PSO and NSGA-II hand over whole generations, which the filter kernels take several "
         "candidates at a time; GA and SA ask for one at a time, and that is most of their time",
         "the paper's times are MATLAB's on another machine with other runs: only their order means anything "

@@ -109,11 +109,11 @@ Result<ExperimentReport> runFig15(const ExperimentOptions& options, Progress& pr
     if (!simulated) return tl::unexpected(simulated.error());
 
     std::vector<Method> methods(3);
-    methods[0] = {"AUKF, tuned on other runs", {}, "0.177 and 0.1792 on average"};
+    methods[0] = {"AUKF", {}, "0.177 and 0.1792 on average"};
     methods[0].fusion.aukf = withCandidate(AukfOptions{}, found->best);
-    methods[1] = {"UKF, untuned", {}, "not in the paper"};
+    methods[1] = {"UKF", {}, "not in the paper"};
     for (std::size_t m = 0; m < 2; ++m) methods[m].fusion.method = FusionMethod::Aukf;
-    methods[2] = {"raw sensors", {}, "not in the paper"};
+    methods[2] = {"raw", {}, "not in the paper"};
     methods[2].fusion.method = FusionMethod::Raw;
 
     ExperimentReport report{.title = "Fig 15: five points, walked to again and again"};
@@ -198,6 +198,7 @@ Result<ExperimentReport> runFig15(const ExperimentOptions& options, Progress& pr
             "tuned on the 16 runs of seed {} (ISMA, population {}, {} evaluations), tested on {} walks "
             "to each of {} points of seed {}: another ground, other errors in each walk",
             options.seed, budget.population, budget.evaluations, repeats, kPoints, test_seed),
+        "UKF: the same filter untuned; raw: sensors as they are",
         "mean of walks: the walks to a point are averaged first and its distance from ZERO and its height "
         "compared with the mark's, as in the paper; each walk: mean over the walks of their own distance "
         "from the mark, which no averaging makes smaller",

@@ -45,15 +45,15 @@ std::string paperWords(const Tuner& tuner, const LossComparison& comparison) {
 }  // namespace
 
 std::vector<Tuner> paperTuners() {
-    return {{OptimiserKind::Isma, FilterKind::Ukf, "ISMA, default form"},
-            {OptimiserKind::IsmaPrinted, FilterKind::Ukf, "ISMA as printed"},
+    return {{OptimiserKind::Isma, FilterKind::Ukf, "ISMA"},
+            {OptimiserKind::IsmaPrinted, FilterKind::Ukf, "printed"},
             {OptimiserKind::Sma, FilterKind::Ukf, "SMA"},
             {OptimiserKind::Pso, FilterKind::Ukf, "PSO"},
             {OptimiserKind::Ga, FilterKind::Ukf, "GA"},
             {OptimiserKind::Sa, FilterKind::Ukf, "SA"},
-            {OptimiserKind::Nsga2, FilterKind::Ukf, "PATO (NSGA-II)"},
-            {OptimiserKind::Isma, FilterKind::Ekf, "EKF, ISMA"},
-            {OptimiserKind::Isma, FilterKind::Ckf, "CKF, ISMA"}};
+            {OptimiserKind::Nsga2, FilterKind::Ukf, "PATO"},
+            {OptimiserKind::Isma, FilterKind::Ekf, "EKF"},
+            {OptimiserKind::Isma, FilterKind::Ckf, "CKF"}};
 }
 
 Result<SimulatedSurvey> simulatedFixedPointRuns(std::uint64_t seed, const std::stop_token& stop) {
@@ -181,6 +181,7 @@ Result<ExperimentReport> compareTuners(const LossComparison& comparison, std::si
             "in accuracy but these runs' errors learnt by heart",
             options.seed + kElsewhere, number(0, 6), number(0, 8)),
         "log10 of the process noises is searched from -8 to 1; the paper gives no bounds",
+        "ISMA: our default form; printed: as the paper has it; EKF, CKF: those filters, tuned by ISMA",
         "PATO: NSGA-II over the horizontal and the vertical loss; its answer is the front's least sum",
     };
     return report;
