@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fusion/drift_filter.hpp"
 #include "fusion/raw_trajectory.hpp"
 #include "fusion/rts_smoother.hpp"
 #include "fusion/run_filter.hpp"
@@ -158,26 +159,52 @@ Result<FusedRun> filteredRun(const Survey& survey, const Run& run, const FusionO
     return fused;
 }
 
+Result<FusedRun> fusedBy(const Survey& survey, const Run& run, const FusionOptions& options, RunFusion& whole,
+                         Progress& progress, std::stop_token stop) {
+    switch (options.method) {
+        case FusionMethod::Raw:
+            return rawTrajectory(survey, run, options, whole.attitudes, whole.reference, progress, stop);
+        case FusionMethod::Terrawalk: {
+            auto filtered =
+                filterWithDrifts(survey, run, options, whole.attitudes, whole.reference, progress, stop);
+            if (!filtered) return tl::unexpected<Error>(filtered.error());
+            whole.gnss_gated = std::move(filtered->gnss_gated);
+            return std::move(filtered->fused);
+        }
+        default:
+            return filteredRun(survey, run, options, whole.attitudes, whole.reference, progress, stop);
+    }
+}
+
 }  // namespace
+
+Result<RunFusion> fuseRunInFull(const Survey& survey, const Run& run, const FusionOptions& options,
+                                Progress& progress, std::stop_token stop) {
+    if (run.log.size() == 0)
+        return badData(fmt::format("run {}: the log has no epochs", run.id), run.log.file);
+    RunFusion whole;
+    RunNotes notes;
+    whole.attitudes = epochAttitudes(run.log, options.attitude, notes);
+    auto reference = runReference(survey, run, options, whole.attitudes, notes);
+    if (!reference) return tl::unexpected<Error>(reference.error());
+    whole.reference = std::move(*reference);
+    auto fused = fusedBy(survey, run, options, whole, progress, stop);
+    if (!fused) return tl::unexpected<Error>(fused.error());
+    whole.fused = std::move(*fused);
+    notes.details.insert(notes.details.end(), whole.fused.notes.details.begin(),
+                         whole.fused.notes.details.end());
+    notes.limitations.insert(notes.limitations.end(), whole.fused.notes.limitations.begin(),
+                             whole.fused.notes.limitations.end());
+    whole.fused.notes = std::move(notes);
+    progress.report(1.0, "fused " + run.id);
+    return whole;
+}
 
 Result<FusedRun> fuseRun(const Survey& survey, const Run& run, const FusionOptions& options,
                          Progress& progress, std::stop_token stop) {
-    if (run.log.size() == 0)
-        return badData(fmt::format("run {}: the log has no epochs", run.id), run.log.file);
-    RunNotes notes;
-    const std::vector<EpochAttitude> attitudes = epochAttitudes(run.log, options.attitude, notes);
-    const auto reference = runReference(survey, run, options, attitudes, notes);
-    if (!reference) return tl::unexpected<Error>(reference.error());
-    auto fused = options.method == FusionMethod::Raw
-                     ? rawTrajectory(survey, run, options, attitudes, *reference, progress, stop)
-                     : filteredRun(survey, run, options, attitudes, *reference, progress, stop);
-    if (!fused) return fused;
-    notes.details.insert(notes.details.end(), fused->notes.details.begin(), fused->notes.details.end());
-    notes.limitations.insert(notes.limitations.end(), fused->notes.limitations.begin(),
-                             fused->notes.limitations.end());
-    fused->notes = std::move(notes);
-    progress.report(1.0, "fused " + run.id);
-    return fused;
+    auto whole = fuseRunInFull(survey, run, options, progress, stop);
+    if (!whole) return tl::unexpected<Error>(whole.error());
+    return std::move(whole->fused);
 }
 
 }  // namespace terrawalk
