@@ -49,17 +49,11 @@ TrajectoryEpoch trajectoryEpoch(const DriftEstimate& state, double time_s, const
     return epoch;
 }
 
-// The error of a GNSS height has a state, so every fix may tell it, unless it is switched off. Accelerometer
-// and yaw row have no place among the states.
+// Accelerometer and yaw row have no place among the states.
 FusionOptions readingOptions(FusionOptions options) {
     options.accelerometer.use = false;
     options.yaw_row.use = false;
     return options;
-}
-
-RunReference readingReference(RunReference reference) {
-    if (reference.gnss_height == GnssHeightUse::Rtk) reference.gnss_height = GnssHeightUse::Always;
-    return reference;
 }
 
 }  // namespace
@@ -70,8 +64,7 @@ Result<DriftFilterResult> filterWithDrifts(const Survey& survey, const Run& run,
                                            std::stop_token stop, double noise) {
     const LocalFrame frame = survey.frame();
     const FusionOptions reading_options = readingOptions(options);
-    const RunReference reading_reference = readingReference(reference);
-    const ReadingContext context{run.log, reading_options, frame, attitudes, reading_reference};
+    const ReadingContext context{run.log, reading_options, frame, attitudes, reference};
     DriftModel model(context, noise);
     RunFilter filter(context, run, model);
     const std::size_t n = run.log.size();

@@ -163,13 +163,15 @@ DriftModel::DriftModel(const ReadingContext& context, double noise) : context_(c
 bool DriftModel::heightIsTold() const {
     const auto& ties = context_.reference.ties;
     if (std::any_of(ties.begin(), ties.end(), [](const MarkTie& tie) { return tie.has_height; })) return true;
-    if (context_.reference.gnss_height == GnssHeightUse::Never) return false;
+    const GnssHeightUse use = context_.reference.gnss_height;
+    if (use == GnssHeightUse::Never) return false;
     const ArrayLog& log = context_.log;
     for (std::size_t i = 0; i < log.size(); ++i) {
-        if (present(log.value(Channel::EllipsoidalHeight, i)) && present(log.value(Channel::Latitude, i)) &&
-            gnssQuality(log, i, context_.options.gnss).rejection.empty()) {
-            return true;
+        if (!present(log.value(Channel::EllipsoidalHeight, i)) || !present(log.value(Channel::Latitude, i))) {
+            continue;
         }
+        const GnssQuality quality = gnssQuality(log, i, context_.options.gnss);
+        if (quality.rejection.empty() && (quality.rtk || use == GnssHeightUse::Always)) return true;
     }
     return false;
 }

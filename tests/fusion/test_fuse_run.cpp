@@ -768,6 +768,20 @@ TEST(FuseRun, AFarRangeWhereNothingCameBackIsNoHeightOverTheMark) {
     EXPECT_NEAR(fused(made).trajectory.epochs[0].position_enu_m.z(), 1.2, 0.15);
 }
 
+TEST(FuseRun, RangesCutShortInHalfOfAStandLeaveTheTieWhole) {
+    MadeRun made = makeRun();
+    std::size_t stood = 0;
+    while (made.log().time_s[stood] <= FusionOptions{}.stands.start_s) ++stood;
+    stood -= stood % 2;
+    for (std::size_t i = 0; i < stood; i += 2) made.log().column(Channel::Range)[i] = 0.15;
+    if (made.log().time_s[stood] <= FusionOptions{}.stands.start_s) {
+        made.log().column(Channel::Range)[stood] = kMissing;
+    }
+    const FusedRun run = fused(made);
+    expectSound(run);
+    EXPECT_NEAR(run.trajectory.epochs[0].position_enu_m.z(), 1.2, 0.15);
+}
+
 // Simulated surveys with the slow GNSS error of 100 s. Mean squared error over variance, ideally 1; two
 // surveys hold few independent errors, so the bounds are wide. Believing each epoch anew must come out as the
 // lie that it is.
