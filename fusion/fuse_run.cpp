@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fusion/aukf_trajectory.hpp"
 #include "fusion/drift_filter.hpp"
 #include "fusion/raw_trajectory.hpp"
 #include "fusion/rts_smoother.hpp"
@@ -171,9 +172,12 @@ Result<FusedRun> fusedBy(const Survey& survey, const Run& run, const FusionOptio
             whole.gnss_gated = std::move(filtered->gnss_gated);
             return std::move(filtered->fused);
         }
-        default:
-            return filteredRun(survey, run, options, whole.attitudes, whole.reference, progress, stop);
+        case FusionMethod::Aukf:
+            return aukfTrajectory(survey, run, options, whole.attitudes, whole.reference, progress, stop);
+        case FusionMethod::Ukf:
+            break;
     }
+    return filteredRun(survey, run, options, whole.attitudes, whole.reference, progress, stop);
 }
 
 }  // namespace

@@ -4,8 +4,6 @@
 
 #include <atomic>
 #include <cstddef>
-#include <cstdio>
-#include <cstdlib>
 
 #include "fusion/fuse_run.hpp"
 #include "fusion/joint_adjustment.hpp"
@@ -60,16 +58,19 @@ Result<FusedSurvey> adjusted(const Survey& survey, std::vector<RunFusion> runs, 
         fused.runs.push_back(std::move(run.fused));
     }
     auto solution = adjustJointly(survey, starts, options, progress, stop);
-    if (!solution) return tl::unexpected(solution.error());
     for (std::size_t i = 0; i < survey.runs.size(); ++i) {
-        fused.runs[i].trajectory = std::move(solution->trajectories[i]);
+        FusedRun& run = fused.runs[i];
+        run.trajectory = solution ? std::move(solution->trajectories[i]) : std::move(starts[i].trajectory);
+        if (!solution) {
+            run.notes.limitations.push_back(
+                "the adjustment of all runs has no solution: the tracks are those of the filter, crossovers "
+                "are not used");
+        }
     }
-    if (getenv("TW_DEBUG")) {
-        fprintf(stderr, "misfit %.3f -> %.3f, %zu pairs, %zu unknowns\n", solution->misfit_before_m,
-                solution->misfit_after_m, solution->crossovers.size(), solution->unknowns);
-        for (const NoiseFactor& f : solution->noise)
-            fprintf(stderr, "  %-32s rows %6zu red %8.1f scale %6.3f down %zu\n", f.source.c_str(), f.rows,
-                    f.redundancy, f.factor, f.down_weighted);
+    if (solution) {
+        fused.adjustment = std::move(solution->summary);
+    } else if (solution.error().kind == ErrorKind::Cancelled) {
+        return tl::unexpected(solution.error());
     }
     return fused;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace terrawalk {
 
 struct FusedSurvey {
     std::vector<FusedRun> runs;  ///< one for each run of the survey, in its order
+    std::optional<AdjustmentSummary> adjustment;  ///< of method terrawalk, where it had a solution
 };
 
 /// Takes all runs of a survey to trajectories by the method that the options name. Works on as many threads

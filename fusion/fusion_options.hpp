@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <string_view>
+#include <utility>
 
 #include "fusion/crossovers.hpp"
 #include "survey/mark_stands.hpp"
@@ -10,8 +13,25 @@ namespace terrawalk {
 enum class FusionMethod {
     Raw,        ///< sensors as they are: latest GNSS position, barometric height
     Ukf,        ///< 9-state unscented Kalman filter with a Rauch-Tung-Striebel pass
+    Aukf,       ///< the method of paper 000 as it is: no gate, no smoother; `AukfOptions` name the filter
     Terrawalk,  ///< filter with error states, then one adjustment of all runs with their crossovers
 };
+
+/// The names that the command line and reports use.
+inline constexpr std::array<std::pair<FusionMethod, std::string_view>, 4> kFusionMethodNames{
+    {{FusionMethod::Raw, "raw"},
+     {FusionMethod::Ukf, "ukf"},
+     {FusionMethod::Aukf, "aukf"},
+     {FusionMethod::Terrawalk, "terrawalk"}}};
+
+[[nodiscard]] constexpr std::string_view name(FusionMethod method) {
+    return kFusionMethodNames[static_cast<std::size_t>(method)].second;
+}
+
+/// Whether a method ties the track to the control marks that a run stands on after its start.
+[[nodiscard]] constexpr bool tiesToMarks(FusionMethod method) {
+    return method != FusionMethod::Raw && method != FusionMethod::Aukf;
+}
 
 /// In which epochs the GNSS height enters the filter. Without a barometer in use, and while it is silent for
 /// long, `Rtk` gives way to `Always`, with a note.
@@ -209,17 +229,68 @@ struct JointOptions {
     double pair_even_slope = 0.2;
     double pair_uneven_m = 0.07;
     double pair_apart_per_m = 0.35;
-    double pair_weight = 0.5;                 ///< neighbouring pairs share their points
+    double pair_plan_share = 0.5;             ///< of the slope that turns errors of the plan into height
+    double pair_weight = 0.4;                 ///< neighbouring pairs share their points
     double walk_mps_per_sqrt_s = 0.6;         ///< random walk of the horizontal velocity
     double ground_roughness_m = 0.05;         ///< of the ground below the walk about its level
-    double ground_climb_m_per_sqrt_m = 0.03;  ///< by which that level wanders
+    double ground_climb_m_per_sqrt_m = 0.06;  ///< by which that level wanders
     double blind_climb_m_per_sqrt_s = 0.27;   ///< the same of the array where no range was measured
+};
+
+/// The filters that stand beside one another on the model of paper 000.
+enum class FilterKind {
+    Ekf,            ///< first-order, Jacobian of the yaw row
+    Ckf,            ///< cubature points (Arasaratnam and Haykin 2009)
+    Ukf,            ///< 19 sigma points, paper 000
+    SquareRootUkf,  ///< the same in square-root form (van der Merwe and Wan 2001)
+    AdaptiveUkf,    ///< measurement noise adapts by a bounded, sequential Sage-Husa rule, paper 004
+};
+
+/// The names that the command line and reports use.
+inline constexpr std::array<std::pair<FilterKind, std::string_view>, 5> kFilterNames{
+    {{FilterKind::Ekf, "ekf"},
+     {FilterKind::Ckf, "ckf"},
+     {FilterKind::Ukf, "ukf"},
+     {FilterKind::SquareRootUkf, "square-root-ukf"},
+     {FilterKind::AdaptiveUkf, "adaptive-ukf"}}};
+
+/// Diagonal of Q of paper 000, eq 12: variance that a step of `AukfOptions::nominal_interval_s` adds.
+struct StepNoiseOptions {
+    double position_e_m2 = 0.01;
+    double position_n_m2 = 0.01;
+    double position_u_m2 = 0.01;
+    double velocity_e_m2ps2 = 0.01;
+    double velocity_n_m2ps2 = 0.01;
+    double velocity_u_m2ps2 = 0.01;
+    double acceleration_e_m2ps4 = 0.01;
+    double acceleration_n_m2ps4 = 0.01;
+    double acceleration_u_m2ps4 = 0.01;
+};
+
+/// Adaptation of the measurement noise; source: paper 004, eqs 27-29. The variance of a row is that of its
+/// sensor times a factor which follows the innovations between two bounds.
+struct SageHusaOptions {
+    double forgetting = 0.995;       ///< b; the memory is 1 / (1 - b) readings of a row
+    double least_factor = 0.1;       ///< R_min over the sensor's own variance
+    double greatest_factor = 100.0;  ///< R_max; a reading that asks for more is left out
+};
+
+/// Parameters of paper 000's method. The defaults are its untuned filter; a tuner sets the rest.
+struct AukfOptions {
+    FilterKind filter = FilterKind::Ukf;
+    StepNoiseOptions noise;
+    /// To which the step noise belongs; a step of another length adds its share of it. The paper logs at 5
+    /// Hz.
+    double nominal_interval_s = 0.2;
+    UnscentedOptions unscented{.alpha = 1.0, .beta = 2.0, .kappa = 0.0};
+    YawRowOptions yaw_row{.use = true};
+    SageHusaOptions adaptive;
 };
 
 /// Every parameter of fusion. All sigmas are 1 sigma. Defaults were chosen on simulated surveys (seeds 1 to 3
 /// at three levels of faults) for small errors and for sigmas that own up to them.
 struct FusionOptions {
-    FusionMethod method = FusionMethod::Ukf;
+    FusionMethod method = FusionMethod::Terrawalk;
     bool smooth = true;  ///< Rauch-Tung-Striebel pass after the filter
     StandOptions stands;
     UnscentedOptions unscented;
@@ -237,6 +308,7 @@ struct FusionOptions {
     DriftFilterOptions drift;
     JointOptions joint;
     DivergenceOptions divergence;
+    AukfOptions aukf;
 };
 
 }  // namespace terrawalk

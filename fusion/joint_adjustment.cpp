@@ -52,7 +52,7 @@ std::vector<RowGroup> rowGroups(bool robust) {
     const auto set = [&](std::size_t g, std::string name, Loss loss, double tuning, bool adapt,
                          double least = 0.2, double greatest = 5.0) {
         groups[g] = {
-            std::move(name), robust ? loss : Loss::Square, tuning, adapt, least, greatest, 20.0, 1.0};
+            std::move(name), robust ? loss : Loss::Square, tuning, false, adapt, least, greatest, 20.0, 1.0};
     };
     set(kPrior, "prior", Loss::Square, 3.0, false);
     set(kTieH, "mark ties, plan", Loss::Square, 3.0, false);
@@ -74,7 +74,8 @@ std::vector<RowGroup> rowGroups(bool robust) {
     set(kGyro, "gyro", Loss::Huber, 3.0, true, 0.2, 20.0);
     set(kHeading, "compass noise", Loss::Cauchy, 3.0, true, 0.2, 10.0);
     set(kWalk, "walk", Loss::Square, 2.0, false);
-    set(kClimb, "ground climb", Loss::Cauchy, 2.0, true, 0.2, 6.0);
+    set(kClimb, "ground climb", Loss::Cauchy, 2.0, true, 0.5, 4.0);
+    groups[kClimb].by_median = true;
     set(kRoughness, "ground roughness", Loss::Huber, 2.0, true, 0.2, 6.0);
     set(kBlindClimb, "climb", Loss::Huber, 2.0, false);
     set(kPair, "crossovers", Loss::Cauchy, 3.0, true, 0.9, 5.0);
@@ -230,7 +231,7 @@ class JointAdjuster {
 
     Result<JointSolution> adjust() {
         JointSolution result;
-        result.unknowns = unknowns_;
+        result.summary.unknowns = unknowns_;
         std::vector<RowGroup> groups = rowGroups(true);
         std::optional<SparseLeastSquares> before;
         const int last = 1 + options_.joint.rounds;
@@ -240,9 +241,10 @@ class JointAdjuster {
             const bool robust = round > 0;
             const bool with_pairs = options_.joint.use_crossovers && round > 1;
             if (options_.joint.use_crossovers && (round == 0 || with_pairs)) findPairs();
-            if (round == 0) result.misfit_before_m = misfit();
+            if (round == 0) result.summary.misfit_before_m = misfit();
             SparseLeastSquares system(unknowns_, robust ? groups : rowGroups(false));
             addRows(system, with_pairs);
+            if (stop_.stop_requested()) return cancelled();
             wantCovariances(system);
             // With other crossovers another order of elimination is good.
             if (before && !with_pairs) system.continueFrom(*before);
@@ -253,6 +255,7 @@ class JointAdjuster {
             }
             takeSolution(*solution);
             takePlanVariances(system);
+            if (round == 1) height_inflation_ = heightInflation(system);
             const bool adapts = options_.joint.adapt_noise && round > 0 && round < last;
             if (adapts || round == last) {
                 const std::vector<GroupStatistics> statistics = system.statistics(*solution);
@@ -261,18 +264,21 @@ class JointAdjuster {
                 if (round == last) {
                     for (std::size_t g = 0; g < groups.size(); ++g) {
                         if (statistics[g].rows == 0) continue;
-                        result.noise.push_back({groups[g].name, statistics[g].rows, statistics[g].redundancy,
-                                                groups[g].scale, statistics[g].down_weighted});
+                        result.summary.noise.push_back({groups[g].name, statistics[g].rows,
+                                                        statistics[g].redundancy, groups[g].scale,
+                                                        statistics[g].down_weighted});
                     }
                     for (const RunModel& run : runs_) result.trajectories.push_back(trajectory(run, system));
                 }
             }
             before.emplace(std::move(system));
         }
+        result.summary.height_inflation = height_inflation_;
         if (options_.joint.use_crossovers) {
             findPairs();
-            result.misfit_after_m = misfit();
+            result.summary.misfit_after_m = misfit();
             result.crossovers = pairs_;
+            result.summary.crossovers = pairs_.size();
         }
         return result;
     }
@@ -1044,10 +1050,8 @@ class JointAdjuster {
         const double uneven = slope.norm() / (slope.norm() + o.pair_even_slope);
         const double sigma =
             o.pair_sigma_m + uneven * (o.pair_uneven_m + o.pair_apart_per_m * std::min(apart_m2, 4.0));
-        static const double extra = getenv("EXTRA") ? atof(getenv("EXTRA")) : 0.0;
-        return std::sqrt(
-            (squared(sigma) + squared(0.5 * roughness_m) + extra * slope.squaredNorm() * apart_m2) /
-            o.pair_weight);
+        return std::sqrt((squared(sigma) + squared(0.5 * roughness_m) + slope.squaredNorm() * apart_m2) /
+                         o.pair_weight);
     }
 
     double planVariance(std::size_t run, std::size_t epoch) const {
@@ -1057,7 +1061,8 @@ class JointAdjuster {
 
     void ground(const RunModel& run, std::size_t epoch, const Eigen::Vector2d& slope, double sign) {
         position(run, epoch, 2, sign);
-        static const double share = getenv("PLAN") ? atof(getenv("PLAN")) : 1.0;
+        // Half of what a slope tells of the plan: the ground is a plane only near by.
+        const double share = options_.joint.pair_plan_share;
         position(run, epoch, 0, -sign * share * slope.x());
         position(run, epoch, 1, -sign * share * slope.y());
     }
@@ -1132,6 +1137,41 @@ class JointAdjuster {
         }
     }
 
+    // Before the crossovers are used they test the track: squared misfits over what its covariance predicts.
+    // Passes close in time share their errors, so they do not count.
+    double heightInflation(SparseLeastSquares& system) {
+        constexpr double kApart_s = 120.0;
+        constexpr double kOutlier = 25.0;
+        constexpr std::size_t kFewest = 30;
+        constexpr double kGreatest = 4.0;
+        if (!options_.joint.use_crossovers) return 1.0;
+        findPairs();
+        double sum = 0.0;
+        std::size_t n = 0;
+        const auto heightVariance = [&](std::uint32_t run, std::uint32_t epoch) {
+            const std::size_t u = runs_[run].correction.unknown(runs_[run].at[epoch].knot, 2);
+            return system.covariance(u, u);
+        };
+        for (const Crossover& pair : pairs_) {
+            const double apart_s =
+                std::abs(runs_[pair.run_a].time(pair.epoch_a) - runs_[pair.run_b].time(pair.epoch_b));
+            if (pair.run_a == pair.run_b && apart_s < kApart_s) continue;
+            const double plan =
+                planVariance(pair.run_a, pair.epoch_a) + planVariance(pair.run_b, pair.epoch_b);
+            const double own =
+                squared(pairSigma(pair.slope, pair.roughness_m, squared(pair.apart_m) + plan)) *
+                options_.joint.pair_weight;
+            const double predicted =
+                heightVariance(pair.run_a, pair.epoch_a) + heightVariance(pair.run_b, pair.epoch_b) + own;
+            sum += std::min(kOutlier, squared(pair.misfit_m) / predicted);
+            ++n;
+        }
+        if (n < kFewest) return 1.0;
+        // Crossovers bind a track more than they test it: what they leave is judged with a margin.
+        constexpr double kMargin = 1.4;
+        return std::clamp(kMargin * sum / static_cast<double>(n), 1.0, kGreatest);
+    }
+
     void wantCovariances(SparseLeastSquares& system) const {
         for (const RunModel& run : runs_) {
             for (std::size_t k = 0; k < run.correction.knots(); ++k) {
@@ -1177,7 +1217,10 @@ class JointAdjuster {
                                                       run.correction.unknown(next, b));
                 }
             }
-            const Eigen::Matrix3d p = g * g * here + f * f * there + g * f * (cross + cross.transpose());
+            Eigen::Matrix3d p = g * g * here + f * f * there + g * f * (cross + cross.transpose());
+            const Eigen::Vector3d inflate(std::sqrt(kPlanInflation), std::sqrt(kPlanInflation),
+                                          std::sqrt(height_inflation_));
+            p = inflate.asDiagonal() * p * inflate.asDiagonal();
             epoch.covariance.setZero();
             epoch.covariance.topLeftCorner<3, 3>() = p;
             epoch.covariance.bottomRightCorner<3, 3>() =
@@ -1193,6 +1236,10 @@ class JointAdjuster {
         return result;
     }
 
+    // What the covariance leaves out in plan (linear models, crossovers that share points), from simulated
+    // surveys at three levels of faults.
+    static constexpr double kPlanInflation = 1.25;
+
     const Survey& survey_;
     LocalFrame frame_;
     const FusionOptions& options_;
@@ -1201,6 +1248,7 @@ class JointAdjuster {
     std::vector<RunModel> runs_;
     Scalar iron_sin_, iron_cos_;
     std::size_t unknowns_ = 0;
+    double height_inflation_ = 1.0;
     std::vector<Crossover> pairs_;
     std::vector<MarkPass> mark_passes_;
     RowBuilder row_;

@@ -24,22 +24,10 @@ struct RunStart {
     std::vector<bool> gnss_gated;  ///< epochs whose GNSS position the filter rejected; may be empty
 };
 
-/// A source of noise and by what factor the survey's own residuals say that its sigma is off.
-struct NoiseFactor {
-    std::string source;
-    std::size_t rows = 0;
-    double redundancy = 0.0;
-    double factor = 1.0;
-    std::size_t down_weighted = 0;
-};
-
 struct JointSolution {
     std::vector<Trajectory> trajectories;  ///< in the order of the runs
-    std::vector<NoiseFactor> noise;
-    std::vector<Crossover> crossovers;  ///< with the misfits that are left
-    double misfit_before_m = 0.0;       ///< RMS of all crossover misfits on the filter's tracks
-    double misfit_after_m = 0.0;
-    std::size_t unknowns = 0;
+    std::vector<Crossover> crossovers;     ///< with the misfits that are left
+    AdjustmentSummary summary;
 };
 
 /// One sparse least-squares adjustment of all runs: track, GNSS, barometer, heading and flow errors, held

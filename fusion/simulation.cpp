@@ -92,8 +92,9 @@ std::optional<Error> refusal(const SimulationOptions& options) {
         return refuse("a lever arm is too long for an array held by hand",
                       "the range finder can be 0.5 m from the origin, the antenna 2 m");
     constexpr std::size_t kMost = 1'000'000;
-    if (options.fixed_point_runs > 999 || options.check_points > 100'000 || options.area_epochs > kMost ||
-        options.fixed_point_epochs > kMost)
+    if (options.fixed_point_rounds == 0 || options.fixed_point_rounds > 999 ||
+        options.fixed_point_runs * options.fixed_point_rounds > 999 || options.check_points > 100'000 ||
+        options.area_epochs > kMost || options.fixed_point_epochs > kMost)
         return refuse("the survey is too large to simulate",
                       "at most 999 fixed-point runs, 100000 check points, 1000000 epochs in a run");
     if (options.fixed_point_runs == 0 && options.area_epochs == 0)
@@ -509,7 +510,9 @@ Result<SimulatedSurvey> simulateSurvey(const SimulationOptions& options, Progres
         survey.marks.push_back(measured(mark, *terrain, options, check_errors));
 
     const Simulator simulator(options, terrain, stop);
-    const std::size_t total = options.fixed_point_runs * options.fixed_point_epochs + options.area_epochs;
+    const std::size_t total =
+        options.fixed_point_runs * options.fixed_point_rounds * options.fixed_point_epochs +
+        options.area_epochs;
     std::size_t done = 0;
     const auto add = [&](Result<SimulatedRun>&& run) -> std::optional<Error> {
         if (!run) return run.error();
@@ -519,8 +522,10 @@ Result<SimulatedSurvey> simulateSurvey(const SimulationOptions& options, Progres
         simulated.truth.push_back(std::move(run->truth));
         return std::nullopt;
     };
-    for (std::size_t i = 0; i < targets.size(); ++i) {
-        if (auto error = add(simulator.fixedPoint(i, targets[i]))) return tl::unexpected(std::move(*error));
+    for (std::size_t i = 0; i < targets.size() * options.fixed_point_rounds; ++i) {
+        if (auto error = add(simulator.fixedPoint(i, targets[i % targets.size()]))) {
+            return tl::unexpected(std::move(*error));
+        }
     }
     if (options.area_epochs > 0) {
         std::vector<const TrueMark*> stops = chooseStops(targets, options.control_stops);

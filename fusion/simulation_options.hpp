@@ -67,6 +67,7 @@ struct SimulationOptions {
     double sample_interval_s = 0.2;
     std::size_t fixed_point_runs =
         16;  ///< F01.. from ZERO to P01.., control marks 10 to 45 m away, as far as room and time allow
+    std::size_t fixed_point_rounds = 1;    ///< so often each of their targets is walked to
     std::size_t fixed_point_epochs = 259;  ///< rows in each of their logs
     std::size_t area_epochs = 9141;        ///< rows in the log of the area walk S01; 0: no area walk
 

@@ -41,7 +41,7 @@ ThreeIndices threeIndices(std::uint64_t bits, std::size_t n) {
 }
 
 /// Three different ones that are not i; n > 3.
-ThreeIndices threeOthers(RandomNumbers& random, std::size_t n, std::size_t i) {
+ThreeIndices threeOthers(QuickRandomNumbers& random, std::size_t n, std::size_t i) {
     for (;;) {
         const ThreeIndices k = threeIndices(random.bits(), n);
         if (k.a != i && k.b != i && k.c != i && k.a != k.b && k.a != k.c && k.b != k.c) return k;
@@ -52,27 +52,22 @@ ThreeIndices threeOthers(RandomNumbers& random, std::size_t n, std::size_t i) {
 void sortByLoss(const Population& population, std::vector<std::size_t>& order) {
     order.resize(population.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return population.losses[a] < population.losses[b];
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        const double loss_a = population.losses[a];
+        const double loss_b = population.losses[b];
+        return loss_a < loss_b || (loss_a == loss_b && a < b);
     });
 }
 
-/// The magnitude of W - 1 for r = 1, with its sign, for each individual.
-std::vector<double> foodWeights(const Population& population, const std::vector<std::size_t>& order) {
-    const double best = population.losses[order.front()];
-    const double worst = population.losses[order.back()];
+/// W - 1 for r = 1 of an individual: above nothing for the better half, below for the others.
+double foodWeight(double loss, double best, double worst, bool better_half) {
     const double spread = best - worst;
-    std::vector<double> weights(population.size(), 0.0);
-    if (!std::isfinite(spread) || spread == 0.0) return weights;
-    for (std::size_t rank = 0; rank < order.size(); ++rank) {
-        const std::size_t i = order[rank];
-        const double scent = std::log10((best - population.losses[i]) / spread + 1.0);
-        weights[i] = rank < order.size() / 2 ? scent : -scent;
-    }
-    return weights;
+    if (!std::isfinite(spread) || spread == 0.0) return 0.0;
+    const double scent = std::log10((best - loss) / spread + 1.0);
+    return better_half ? scent : -scent;
 }
 
-Population randomStart(const SearchBox& box, std::size_t n, RandomNumbers& random,
+Population randomStart(const SearchBox& box, std::size_t n, QuickRandomNumbers& random,
                        CandidateEvaluator& evaluator) {
     Population start{.d = box.dimensions(), .x = {}, .losses = {}};
     start.x.resize(n * start.d);
@@ -125,13 +120,17 @@ Reach reach(double share) {
 // ------------------------------------------------------------------------------------ as published
 
 /// Moves everybody by eq 21 and evaluates them. False when the search is over.
-bool publishedMove(const SearchBox& box, Population& population, RandomNumbers& random,
+bool publishedMove(const SearchBox& box, Population& population, QuickRandomNumbers& random,
                    CandidateEvaluator& evaluator) {
     const std::size_t n = population.size();
     const std::size_t d = population.d;
     std::vector<std::size_t> order;
     sortByLoss(population, order);
-    const std::vector<double> weights = foodWeights(population, order);
+    std::vector<double> weights(n);
+    for (std::size_t rank = 0; rank < n; ++rank) {
+        weights[order[rank]] = foodWeight(population.losses[order[rank]], population.losses[order.front()],
+                                          population.losses[order.back()], rank < n / 2);
+    }
     const std::vector<double> best = evaluator.best();
     const Reach r = reach(shareSpent(evaluator));
     std::vector<double> moved(population.x.size());
@@ -177,7 +176,7 @@ std::vector<double> crossoverRates(const std::vector<double>& losses) {
 }
 
 /// Eqs 23-26: a trial vector for everybody, kept where it is better. False when the search is over.
-bool printedTrials(const SearchBox& box, Population& population, RandomNumbers& random,
+bool printedTrials(const SearchBox& box, Population& population, QuickRandomNumbers& random,
                    CandidateEvaluator& evaluator) {
     constexpr double kScale = 0.5;
     const std::size_t n = population.size();
@@ -186,7 +185,7 @@ bool printedTrials(const SearchBox& box, Population& population, RandomNumbers& 
     std::vector<double> trials(population.x);
     for (std::size_t i = 0; i < n; ++i) {
         const ThreeIndices k = threeOthers(random, n, i);
-        const auto forced = static_cast<std::size_t>(random.uniform() * static_cast<double>(d));
+        const std::size_t forced = random.index(d);
         for (std::size_t j = 0; j < d; ++j) {
             if (!random.chance(rates[i]) && j != forced) continue;
             const double mutated =
@@ -205,6 +204,13 @@ bool printedTrials(const SearchBox& box, Population& population, RandomNumbers& 
 
 // ------------------------------------------------------------------------------------ the form to use
 
+/// What an individual crosses over with; it passes on what brought a gain.
+struct Control {
+    double scale = 0.5;        // F
+    double rate = 0.9;         // CR
+    bool exponential = false;  // a run of neighbouring dimensions instead of each by itself
+};
+
 /// The improved algorithm between two generations.
 class ImprovedSlimeMould {
   public:
@@ -215,8 +221,9 @@ class ImprovedSlimeMould {
           evaluator_(evaluator),
           largest_(population),
           population_(goodStart(box, population, evaluator)),
-          scales_(population_.size(), kFirstScale),
-          rates_(population_.size(), kFirstRate) {}
+          controls_(population_.size()) {
+        for (Control& control : controls_) control.exponential = random_.chance(0.5);
+    }
 
     void run() {
         while (!evaluator_.isOver()) {
@@ -229,10 +236,8 @@ class ImprovedSlimeMould {
   private:
     static constexpr std::uint64_t kStream = 1;
     static constexpr std::size_t kSmallest = 10;
-    static constexpr double kFirstScale = 0.5;
-    static constexpr double kFirstRate = 0.9;
     static constexpr double kRenewal = 0.1;
-    static constexpr double kSlimeMouldShare = 0.2;
+    static constexpr double kSlimeMouldShare = 0.1;
 
     /// Lets the worst leave; afterwards the population stands in the order of its losses.
     void shrink() {
@@ -242,35 +247,30 @@ class ImprovedSlimeMould {
             std::lround(static_cast<double>(largest_) - (static_cast<double>(largest_) - smallest) * share));
         sortByLoss(population_, order_);
         order_.resize(std::min(n, order_.size()));
-        Population kept{.d = population_.d, .x = {}, .losses = {}};
-        kept.x.resize(order_.size() * kept.d);
-        kept.losses.resize(order_.size());
-        std::vector<double> scales(order_.size());
-        std::vector<double> rates(order_.size());
+        kept_.x.resize(order_.size() * population_.d);
+        kept_.losses.resize(order_.size());
+        kept_controls_.resize(order_.size());
         for (std::size_t rank = 0; rank < order_.size(); ++rank) {
             const std::size_t i = order_[rank];
-            std::copy_n(population_.at(i), kept.d, kept.at(rank));
-            kept.losses[rank] = population_.losses[i];
-            scales[rank] = scales_[i];
-            rates[rank] = rates_[i];
+            std::copy_n(population_.at(i), population_.d, kept_.at(rank));
+            kept_.losses[rank] = population_.losses[i];
+            kept_controls_[rank] = controls_[i];
         }
-        population_ = std::move(kept);
-        scales_ = std::move(scales);
-        rates_ = std::move(rates);
+        std::swap(population_, kept_);
+        std::swap(controls_, kept_controls_);
     }
 
     void makeTrials() {
         const std::size_t n = population_.size();
-        std::iota(order_.begin(), order_.end(), std::size_t{0});
-        weights_ = foodWeights(population_, order_);
         reach_ = reach(shareSpent(evaluator_));
         trials_.resize(n * population_.d);
-        trial_scales_ = scales_;
-        trial_rates_ = rates_;
+        trial_controls_ = controls_;
         for (std::size_t i = 0; i < n; ++i) {
-            if (random_.chance(kRenewal)) trial_scales_[i] = 0.1 + 0.9 * random_.uniform();
-            if (random_.chance(kRenewal)) trial_rates_[i] = random_.uniform();
-            chooseCrossed(trial_rates_[i]);
+            Control& control = trial_controls_[i];
+            if (random_.chance(kRenewal)) control.scale = 0.1 + 0.9 * random_.uniform();
+            if (random_.chance(kRenewal)) control.rate = random_.uniform();
+            if (random_.chance(kRenewal)) control.exponential = random_.chance(0.5);
+            chooseCrossed(control);
             double* const trial = trials_.data() + i * population_.d;
             if (!random_.chance(kSlimeMouldShare)) {
                 differentialTrial(i, trial);
@@ -282,17 +282,25 @@ class ImprovedSlimeMould {
         }
     }
 
-    /// Binomial crossover: which dimensions come from the donor; one at least.
-    void chooseCrossed(double rate) {
+    /// Which dimensions come from the donor; one at least.
+    void chooseCrossed(const Control& control) {
         const std::size_t d = population_.d;
-        crossed_.resize(d + 1);
-        const auto threshold = static_cast<std::uint64_t>(rate * 0x1.0p32);
-        for (std::size_t j = 0; j < d; j += 2) {
-            const std::uint64_t bits = random_.bits();
-            crossed_[j] = (bits & 0xffffffffU) < threshold;
-            crossed_[j + 1] = (bits >> 32U) < threshold;
+        crossed_.assign(d + 1, 0);
+        std::size_t j = random_.index(d);
+        crossed_[j] = 1;
+        if (control.exponential) {
+            for (std::size_t length = 1; length < d && random_.chance(control.rate); ++length) {
+                j = j + 1 == d ? 0 : j + 1;
+                crossed_[j] = 1;
+            }
+            return;
         }
-        crossed_[static_cast<std::size_t>(random_.uniform() * static_cast<double>(d))] = 1;
+        const auto threshold = static_cast<std::uint64_t>(control.rate * 0x1.0p32);
+        for (std::size_t k = 0; k < d; k += 2) {
+            const std::uint64_t bits = random_.bits();
+            crossed_[k] |= static_cast<std::uint8_t>((bits & 0xffffffffU) < threshold);
+            crossed_[k + 1] |= static_cast<std::uint8_t>((bits >> 32U) < threshold);
+        }
     }
 
     void differentialTrial(std::size_t i, double* trial) {
@@ -301,7 +309,7 @@ class ImprovedSlimeMould {
         const double* const a = population_.at(k.a);
         const double* const b = population_.at(k.b);
         const double* const c = population_.at(k.c);
-        const double scale = trial_scales_[i];
+        const double scale = trial_controls_[i].scale;
         for (std::size_t j = 0; j < population_.d; ++j) {
             const double donor = clamped(a[j] + scale * (b[j] - c[j]), box_.lower[j], box_.upper[j]);
             trial[j] = crossed_[j] != 0 ? donor : x[j];
@@ -319,8 +327,11 @@ class ImprovedSlimeMould {
         const std::size_t n = population_.size();
         const double* const x = population_.at(i);
         const double* const best = population_.at(0);
-        const double spread = population_.losses.back() - population_.losses.front();
-        const double distance = population_.losses[i] - population_.losses.front();
+        const double best_loss = population_.losses.front();
+        const double worst_loss = population_.losses.back();
+        const double spread = worst_loss - best_loss;
+        const double distance = population_.losses[i] - best_loss;
+        const double scent = foodWeight(population_.losses[i], best_loss, worst_loss, i < n / 2);
         // A population of equal losses, or one that is infinite and so tells no distance.
         const double p = spread > 0.0 && std::isfinite(spread) ? std::tanh(distance / spread) : 0.0;
         for (std::size_t j = 0; j < population_.d; ++j) {
@@ -334,7 +345,7 @@ class ImprovedSlimeMould {
             const std::uint64_t bits = random_.bits();
             const double along = static_cast<double>(bits >> 32U) * 0x1.0p-31 - 1.0;
             if (random_.chance(p)) {
-                const double weight = 1.0 + static_cast<double>(bits & 0xffffffffU) * 0x1.0p-32 * weights_[i];
+                const double weight = 1.0 + static_cast<double>(bits & 0xffffffffU) * 0x1.0p-32 * scent;
                 trial[j] = best[j] + along * reach_.a * (weight * (a - best[j]) - (b - best[j]));
             } else {
                 trial[j] = x[j] + along * reach_.b * (a - b);
@@ -347,26 +358,22 @@ class ImprovedSlimeMould {
         const EvaluatedLosses found = evaluator_.evaluate(trials_);
         for (std::size_t i = 0; i < found.sums.size(); ++i) {
             if (found.sums[i] > population_.losses[i]) continue;
-            if (found.sums[i] < population_.losses[i]) {
-                scales_[i] = trial_scales_[i];
-                rates_[i] = trial_rates_[i];
-            }
+            if (found.sums[i] < population_.losses[i]) controls_[i] = trial_controls_[i];
             std::copy_n(trials_.data() + i * population_.d, population_.d, population_.at(i));
             population_.losses[i] = found.sums[i];
         }
     }
 
     const SearchBox& box_;
-    RandomNumbers random_;
+    QuickRandomNumbers random_;
     CandidateEvaluator& evaluator_;
     std::size_t largest_;
-    Population population_;
-    std::vector<double> scales_;  // F
-    std::vector<double> rates_;   // CR
-    std::vector<double> trial_scales_;
-    std::vector<double> trial_rates_;
+    Population population_;  // in the order of losses while trials are made
+    Population kept_{.d = population_.d, .x = {}, .losses = {}};
+    std::vector<Control> controls_;
+    std::vector<Control> kept_controls_;
+    std::vector<Control> trial_controls_;
     std::vector<double> trials_;  // n x d
-    std::vector<double> weights_;
     std::vector<std::size_t> order_;
     std::vector<std::uint8_t> crossed_;
     Reach reach_{};
@@ -376,7 +383,7 @@ class ImprovedSlimeMould {
 
 void slimeMould(const SearchBox& box, std::size_t population, std::uint64_t seed,
                 CandidateEvaluator& evaluator) {
-    RandomNumbers random({seed, 3});
+    QuickRandomNumbers random({seed, 3});
     Population slime = randomStart(box, population, random, evaluator);
     while (!evaluator.isOver() && publishedMove(box, slime, random, evaluator)) {
     }
@@ -384,7 +391,7 @@ void slimeMould(const SearchBox& box, std::size_t population, std::uint64_t seed
 
 void printedSlimeMould(const SearchBox& box, std::size_t population, std::uint64_t seed,
                        CandidateEvaluator& evaluator) {
-    RandomNumbers random({seed, 2});
+    QuickRandomNumbers random({seed, 2});
     Population slime = goodStart(box, population, evaluator);
     while (!evaluator.isOver() && publishedMove(box, slime, random, evaluator) &&
            printedTrials(box, slime, random, evaluator)) {

@@ -34,16 +34,22 @@ void printedSlimeMould(const SearchBox& box, std::size_t population, std::uint64
 /// draws towards the origin (vc X_i), and weighs losses by their unit (tanh |L_i - L_best|). Here
 ///     start   good points and their opposition, the better half of both
 ///     each generation   N shrinks evenly from the population to 10, the worst leave
-///     each individual   F' = 0.1 + 0.9 U with probability 0.1, else its own F; CR' = U likewise
-///         donor   with probability 0.2 a slime mould move, for each dimension
+///     each individual   F' = 0.1 + 0.9 U with probability 0.1, else its own F; CR' = U and the kind of
+///                       crossover likewise
+///         donor   with probability 0.1 a slime mould move, for each dimension
 ///                     uniform in the box       with probability 0.03 (for the individual), else
 ///                     best + vb (W (X_A - best) - (X_B - best))
 ///                                              with probability tanh((L_i - L_best)/(L_worst - L_best))
 ///                     X_i + vc (X_A - X_B)     otherwise
 ///                 else X_a + F' (X_b - X_c)
-///         trial   binomial crossover of donor and X_i with CR'; kept if not worse; F', CR' kept with a gain
-/// The differential evolution in it supplies most of the gain.
-/// Source: paper 000, eqs 21-26, changed as said; Brest, Greiner, Boskovic, Mernik and Zumer 2006 (F, CR).
+///         trial   binomial or exponential crossover of donor and X_i with CR'; kept if not worse; F', CR'
+///         and
+///                 the kind of crossover kept with a gain
+/// The differential evolution in it supplies most of the gain. Exponential crossover, a run of neighbouring
+/// dimensions, is the better one where a dimension has to do with its neighbours alone, binomial crossover
+/// where it has to do with all.
+/// Source: paper 000, eqs 21-26, changed as said; Brest, Greiner, Boskovic, Mernik and Zumer 2006 (F, CR);
+/// Storn and Price 1997 (both crossovers).
 void improvedSlimeMould(const SearchBox& box, std::size_t population, std::uint64_t seed,
                         CandidateEvaluator& evaluator);
 

@@ -112,6 +112,7 @@ double SparseLeastSquares::covariance(std::size_t i, std::size_t j) {
 
 std::vector<GroupStatistics> SparseLeastSquares::statistics(const Eigen::VectorXd& solution) {
     std::vector<GroupStatistics> result(groups_.size());
+    std::vector<std::vector<double>> deviations(groups_.size());
     for (std::size_t row = 0; row < rows(); ++row) {
         const RowGroup& group = groups_[row_groups_[row]];
         GroupStatistics& s = result[row_groups_[row]];
@@ -130,9 +131,20 @@ std::vector<GroupStatistics> SparseLeastSquares::statistics(const Eigen::VectorX
         const double used = weightOf(row, residuals_[row]);  // what solve() took
         const double weight = weightOf(row, after);
         ++s.rows;
-        s.redundancy += std::clamp(1.0 - used * predicted / squared(sigma), 0.0, 1.0);
+        const double redundancy = std::clamp(1.0 - used * predicted / squared(sigma), 0.0, 1.0);
+        s.redundancy += redundancy;
+        if (group.by_median) {
+            deviations[row_groups_[row]].push_back(std::abs(after) / (sigma * std::sqrt(std::max(redundancy, 0.02))));
+        }
         s.weighted_squares += weight * squared(after / sigma);
         if (weight < 0.5) ++s.down_weighted;
+    }
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+        std::vector<double>& all = deviations[g];
+        if (all.empty()) continue;
+        const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+        std::nth_element(all.begin(), middle, all.end());
+        result[g].median_deviation = *middle / 0.6745;
     }
     return result;
 }
@@ -142,6 +154,16 @@ void SparseLeastSquares::adaptScales(const std::vector<GroupStatistics>& statist
         RowGroup& group = groups_[g];
         const GroupStatistics& s = statistics[g];
         if (!group.adapt || s.rows == 0) continue;
+        if (group.by_median) {
+            const auto rows = static_cast<double>(s.rows);
+            // `median_deviation` is in units of the present sigma.
+            const double ratio =
+                (rows * squared(s.median_deviation) + group.prior_rows / squared(group.scale)) /
+                (rows + group.prior_rows);
+            group.scale =
+                std::clamp(group.scale * std::sqrt(ratio), group.least_scale, group.greatest_scale);
+            continue;
+        }
         const double expected = expectedWeightedSquare(group.loss, group.tuning);
         const double variance_ratio =
             (s.weighted_squares / expected + group.prior_rows / squared(group.scale)) /

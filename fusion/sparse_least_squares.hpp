@@ -26,6 +26,7 @@ struct RowGroup {
     std::string name;
     Loss loss = Loss::Square;
     double tuning = 3.0;
+    bool by_median = false;  ///< the factor comes from the median residual: for rows with many outliers
     bool adapt = false;        ///< whether the factor may be estimated
     double least_scale = 0.2;  ///< limits of the factor
     double greatest_scale = 5.0;
@@ -38,6 +39,7 @@ struct GroupStatistics {
     std::size_t rows = 0;
     double redundancy = 0.0;        ///< rows less what the unknowns took of them
     double weighted_squares = 0.0;  ///< sum of weight (residual / sigma)^2
+    double median_deviation = 0.0;  ///< |residual| / its sigma, redundancy counted, over 0.6745
     std::size_t down_weighted = 0;  ///< rows whose weight fell below a half
 };
 

@@ -38,6 +38,9 @@ namespace terrawalk {
 ///                         duration_s, distance_m, fixes: [{reason, count}], sensors: [{sensor, offered,
 ///                         used, down_weighted, rejections: [{reason, count}]}], ground_points_used,
 ///                         ground_points_rejected: [{reason, count}], notes, track_enu_m}]
+///     tuning              null or {in_use, holds_out_better, decision, survey, program, method, optimiser, seed,
+///                         population, iterations, evaluations, loss, loss_before, loss_after,
+///                         left_out_before, left_out_after (or null), warnings, marks: [name]}
 ///     settings            [{key, requested, used}]
 ///     inputs              [{path, bytes, sha256}]
 [[nodiscard]] std::string reportJson(const SurveyReport& report);

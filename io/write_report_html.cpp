@@ -302,7 +302,7 @@ std::string residualTable(const SurveyReport& report) {
                 metresCell(r.difference_enu_m.x()) + metresCell(r.difference_enu_m.y()) +
                 metresCell(r.difference_enu_m.z()) + metresCell(r.sigma_enu_m.z()) +
                 cell(Cell::Number, signedSigma(r, 2)) +
-                cell(Cell::Text, r.used_by_estimator ? "no, tied" : "yes") + "</tr>\n";
+                cell(Cell::Text, r.used_by_estimator ? "no, used" : "yes") + "</tr>\n";
     }
     if (rows.empty()) return {};
     return table({{"Mark"},
@@ -347,6 +347,40 @@ std::string accuracySection(const SurveyReport& report) {
 
 std::string pairRow(std::string_view what, std::string_view value) {
     return row(rowHead(what) + cell(Cell::Text, value));
+}
+
+std::string adjustmentSection(const std::optional<AdjustmentSummary>& adjustment) {
+    if (!adjustment) return "";
+    const AdjustmentSummary& a = *adjustment;
+    std::string rows;
+    rows += pairRow("Unknowns", groupedDigits(a.unknowns));
+    rows += pairRow("Crossovers",
+                    fmt::format("{} pairs of passes over the same ground", groupedDigits(a.crossovers)));
+    rows += pairRow("Their heights differ by",
+                    fmt::format("{} m RMS after the filter, {} m after the adjustment",
+                                metres3(a.misfit_before_m), metres3(a.misfit_after_m)));
+    rows +=
+        pairRow("Variance of heights",
+                a.height_inflation > 1.0
+                    ? fmt::format("multiplied by {}: crossovers differ by more than the filter's sigmas say",
+                                  fixedDecimals(a.height_inflation, 2))
+                    : "kept: crossovers agree with the sigmas");
+    std::string noise =
+        "<tr><th>Source of noise</th><th class=\"number\">Rows</th><th class=\"number\">Sigma "
+        "times</th><th class=\"number\">Down-weighted</th></tr>\n";
+    for (const NoiseFactor& n : a.noise) {
+        noise += fmt::format(
+            "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td "
+            "class=\"number\">{}</td></tr>\n",
+            escapedMarkup(n.source), groupedDigits(n.rows), fixedDecimals(n.factor, 2),
+            groupedDigits(n.down_weighted));
+    }
+    return "<div class=\"scroll\"><table>\n" + tableBody(rows) + "</table></div>\n" +
+           note(
+               "Sigma times: by what factor the survey's own residuals say that a sigma of the settings is "
+               "off. "
+               "1 where it was not estimated.") +
+           "<div class=\"scroll\"><table>\n" + noise + "</table></div>\n";
 }
 
 std::string surfaceSection(const SurveyReport& report) {
@@ -548,6 +582,29 @@ std::string sensorSection(const SurveyReport& report) {
     return out + folded("Run by run", table(headings, bodies));
 }
 
+// ---------------------------------------------------------------------------------------------- tuning
+
+std::string tuningSection(const SurveyReport& report) {
+    if (!report.tuning) return {};
+    const TuningRecord& t = *report.tuning;
+    std::string rows =
+        pairRow("Tuned values", t.in_use ? "used for this product" : "not used") +
+        pairRow("Method", t.method) + pairRow("Tuned on the survey", t.survey) + pairRow("By", t.program) +
+        pairRow("Search", fmt::format("{}, population {}, {} iterations, seed {}", t.optimiser, t.population,
+                                      t.iterations, t.seed)) +
+        pairRow("Evaluations, in all", groupedDigits(t.evaluations)) + pairRow("Loss", t.loss) +
+        pairRow("Loss before and after", fmt::format("{:.5g} \u2192 {:.5g}", t.loss_before, t.loss_after));
+    if (t.left_out_before && t.left_out_after) {
+        rows += pairRow("The same on parts left out of the tuning",
+                        fmt::format("{:.5g} \u2192 {:.5g}", *t.left_out_before, *t.left_out_after));
+    }
+    std::vector<std::string> marks;
+    for (const ControlMark& mark : t.marks) marks.push_back(mark.name);
+    rows += pairRow("Marks tuned on", fmt::format("{}", fmt::join(marks, ", ")));
+    return note(t.decision) + "<div class=\"scroll\"><table>\n" + tableBody(rows) + "</table></div>\n" +
+           bullets(t.warnings);
+}
+
 // ---------------------------------------------------------------------------------------------- record
 
 std::string settingsTable(const SurveyReport& report) {
@@ -595,9 +652,13 @@ std::string reportHtml(const SurveyReport& report) {
     out += section("map", "Map of the walk", mapSection(report));
     out += section("errors", "Errors at the marks", errorSection(report));
     out += section("accuracy", "Accuracy", accuracySection(report));
+    if (report.adjustment) {
+        out += section("adjustment", "Adjustment of all runs", adjustmentSection(report.adjustment));
+    }
     out += section("surface", "Terrain model", surfaceSection(report));
     out += section("runs", "Runs", runSection(report));
     out += section("sensors", "Use of the sensors", sensorSection(report));
+    out += section("tuning", "Tuning", tuningSection(report));
     out += section("record", "Record", recordSection(report));
     out +=
         "</main>\n<footer>Made by Terrawalk from the files listed above. The same figures stand in "

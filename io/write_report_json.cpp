@@ -151,6 +151,51 @@ Json settingJson(const UsedSetting& s) {
     return {{"key", s.key}, {"requested", s.requested}, {"used", s.used}};
 }
 
+Json tuningJson(const std::optional<TuningRecord>& tuning) {
+    if (!tuning) return nullptr;
+    const TuningRecord& t = *tuning;
+    const auto optional = [](const std::optional<double>& value) {
+        return value ? jsonNumber(*value) : Json(nullptr);
+    };
+    return {{"in_use", t.in_use},
+            {"holds_out_better", t.holds_out_better},
+            {"decision", t.decision},
+            {"survey", t.survey},
+            {"program", t.program},
+            {"method", t.method},
+            {"optimiser", t.optimiser},
+            {"seed", t.seed},
+            {"population", t.population},
+            {"iterations", t.iterations},
+            {"evaluations", t.evaluations},
+            {"loss", t.loss},
+            {"loss_before", jsonNumber(t.loss_before)},
+            {"loss_after", jsonNumber(t.loss_after)},
+            {"left_out_before", optional(t.left_out_before)},
+            {"left_out_after", optional(t.left_out_after)},
+            {"warnings", t.warnings},
+            {"marks", listOf(t.marks, [](const ControlMark& mark) { return mark.name; })}};
+}
+
+Json noiseJson(const NoiseFactor& n) {
+    return {{"source", n.source},
+            {"rows", n.rows},
+            {"redundancy", n.redundancy},
+            {"factor", n.factor},
+            {"down_weighted", n.down_weighted}};
+}
+
+Json adjustmentJson(const std::optional<AdjustmentSummary>& adjustment) {
+    if (!adjustment) return nullptr;
+    const AdjustmentSummary& a = *adjustment;
+    return {{"unknowns", a.unknowns},
+            {"crossovers", a.crossovers},
+            {"misfit_before_m", a.misfit_before_m},
+            {"misfit_after_m", a.misfit_after_m},
+            {"height_variance_inflation", a.height_inflation},
+            {"noise", listOf(a.noise, noiseJson)}};
+}
+
 Json inputJson(const InputFile& i) {
     return {{"path", i.path}, {"bytes", i.bytes}, {"sha256", i.sha256}};
 }
@@ -172,8 +217,10 @@ std::string reportJson(const SurveyReport& report) {
                     {"residuals", listOf(report.residuals, residualJson)},
                     {"missing_residuals", listOf(report.missing_residuals, missingJson)},
                     {"marks", listOf(report.marks, markJson)},
+                    {"adjustment", adjustmentJson(report.adjustment)},
                     {"surface", surfaceJson(report.surface)},
                     {"runs", listOf(report.runs, runJson)},
+                    {"tuning", tuningJson(report.tuning)},
                     {"settings", listOf(report.settings, settingJson)},
                     {"inputs", listOf(report.inputs, inputJson)}};
     // Names come from files of anybody: what is no UTF-8 becomes U+FFFD instead of an exception.

@@ -5,6 +5,7 @@
 
 #include "io/markup_text.hpp"
 #include "io/replacing_file.hpp"
+#include "io/survey_format.hpp"
 #include "io/write_products.hpp"
 
 namespace terrawalk {
@@ -62,10 +63,7 @@ double headingDegrees(double yaw_rad) {
 Result<void> writeTrajectoryCsv(const Trajectory& trajectory, const std::filesystem::path& file) {
     auto out = ReplacingFile::create(file);
     if (!out) return tl::unexpected(out.error());
-    auto written = out->write(
-        "time_s,e_m,n_m,u_m,ve_mps,vn_mps,vu_mps,sigma_e_m,sigma_n_m,sigma_u_m,roll_deg,pitch_deg,heading_"
-        "deg,"
-        "sigma_tilt_deg,sigma_heading_deg\n");
+    auto written = out->write(fmt::format("{}\n", fmt::join(kTrajectoryColumns, ",")));
     CsvLine line;
     for (const TrajectoryEpoch& epoch : trajectory.epochs) {
         if (!written) return written;

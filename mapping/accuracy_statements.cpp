@@ -363,9 +363,9 @@ std::vector<std::string> accuracyLimitations(const SurveyReport& report) {
     const auto tied = std::count_if(report.residuals.begin(), report.residuals.end(),
                                     [](const Residual& r) { return r.used_by_estimator; });
     if (tied > 0) {
-        out.push_back(
-            fmt::format("The estimator was tied to the mark in {}; these are listed and never counted.",
-                        counted(static_cast<std::size_t>(tied), "comparison")));
+        out.push_back(fmt::format(
+            "The estimator was tied to the mark or tuned on it in {}; these are listed and never counted.",
+            counted(static_cast<std::size_t>(tied), "comparison")));
     }
     return out;
 }

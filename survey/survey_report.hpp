@@ -60,7 +60,8 @@ struct Residual {
     Eigen::Vector3d difference_enu_m = Eigen::Vector3d::Constant(kMissing);
     Eigen::Vector3d sigma_enu_m =
         Eigen::Vector3d::Constant(kMissing);  ///< predicted, mark's own sigma included
-    bool used_by_estimator = false;  ///< the estimator was tied to this mark here, so it certifies nothing
+    /// The estimator was tied to this mark here, or tuned on it, so it certifies nothing.
+    bool used_by_estimator = false;
 };
 
 /// A comparison that was looked for and could not be made.
@@ -149,6 +150,28 @@ struct SurfaceReport {
     std::string vertical_datum;  ///< what the heights refer to
 };
 
+/// How parameters of the fusion were tuned, where they were.
+struct TuningRecord {
+    std::string survey;   ///< whose marks were used
+    std::string program;  ///< name and version
+    std::string method;   ///< "aukf"
+    std::string optimiser;
+    std::uint64_t seed = 0;
+    std::size_t population = 0;
+    std::size_t iterations = 0;
+    std::size_t evaluations = 0;  ///< in all, tests on parts left out among them
+    std::string loss;             ///< what was made small, with its unit
+    double loss_before = 0.0;
+    double loss_after = 0.0;
+    std::optional<double> left_out_before;  ///< the same on parts that were left out of the tuning
+    std::optional<double> left_out_after;
+    bool holds_out_better = false;
+    bool in_use = true;    ///< whether the products were made with the tuned values
+    std::string decision;  ///< one sentence: whether they are better on data that they have not seen
+    std::vector<std::string> warnings;
+    std::vector<ControlMark> marks;  ///< on which they were tuned: while in use, these certify nothing
+};
+
 /// Everything that the report files say; each writer shows the same values.
 struct SurveyReport {
     std::string survey_name;
@@ -158,7 +181,9 @@ struct SurveyReport {
     std::vector<InputFile> inputs;
     std::vector<UsedSetting> settings;
     std::vector<RunReport> runs;
+    std::optional<AdjustmentSummary> adjustment;  ///< of all runs, by method terrawalk
     SurfaceReport surface;
+    std::optional<TuningRecord> tuning;
     std::optional<ReliefPicture> relief;  ///< of the surface, under the map; not part of report.json
     std::vector<ControlMark> marks;
     std::vector<Residual> residuals;

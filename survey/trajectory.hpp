@@ -43,10 +43,42 @@ struct SensorUse {
     std::vector<Rejection> rejections;
 };
 
+/// Whether a sensor's innovations are as large as the filter says: the mean of nu' S^-1 nu over its readings
+/// in one run. Near `dof` when the sigmas are right, above when the filter is too sure. Source: Bar-Shalom,
+/// Li and Kirubarajan 2001, section 5.4.
+struct SensorConsistency {
+    std::string sensor;
+    std::size_t n = 0;      ///< readings that an update took
+    double dof = 0.0;       ///< rows per reading
+    double mean_nis = 0.0;  ///< normalised innovation squared
+};
+
 /// What a reader of the results should know of a run, in plain words.
 struct RunNotes {
     std::vector<std::string> limitations;  ///< what the log lacks as a whole, and what stands in for it
     std::vector<std::string> details;      ///< what happened on the way
+};
+
+/// A source of noise in the adjustment of all runs, and by what factor the survey's own residuals say that
+/// its sigma is off.
+struct NoiseFactor {
+    std::string source;
+    std::size_t rows = 0;
+    double redundancy = 0.0;  ///< rows less what the unknowns took of them
+    double factor = 1.0;
+    std::size_t down_weighted = 0;  ///< rows that count for less than half
+};
+
+/// What the adjustment of all runs came to.
+struct AdjustmentSummary {
+    std::size_t unknowns = 0;
+    std::size_t crossovers = 0;    ///< pairs of passes over the same ground
+    double misfit_before_m = 0.0;  ///< RMS of their heights' differences on the filter's tracks
+    double misfit_after_m = 0.0;
+    /// Factor on the variance of heights by an internal test: misfits of crossovers that the track knew nothing
+    /// of, over their predicted variance. At least 1.
+    double height_inflation = 1.0;
+    std::vector<NoiseFactor> noise;
 };
 
 /// A run after fusion (or without it, in raw mode).
@@ -54,6 +86,7 @@ struct FusedRun {
     Trajectory trajectory;
     std::vector<SensorUse> sensors;
     RunNotes notes;
+    std::vector<SensorConsistency> consistency;  ///< from methods that compute it
 };
 
 }  // namespace terrawalk

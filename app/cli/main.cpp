@@ -13,9 +13,13 @@
 #include "app/cli/interrupt.hpp"
 #include "app/cli/simulate_options.hpp"
 #include "app/cli/terminal_progress.hpp"
+#include "app/cli/tune_options.hpp"
+#include "app/pipeline/compare.hpp"
 #include "app/pipeline/experiment.hpp"
 #include "app/pipeline/jobs.hpp"
 #include "app/pipeline/json_output.hpp"
+#include "app/pipeline/tune_file.hpp"
+#include "app/pipeline/tune_jobs.hpp"
 #include "app/pipeline/version.hpp"
 
 namespace terrawalk {
@@ -53,6 +57,13 @@ struct ProcessArguments {
     std::vector<std::string> settings;
     std::optional<std::string> method;
     std::optional<std::uint64_t> seed;
+    bool tune = false;
+    TuneOptions tuning;
+};
+
+struct TuneArguments {
+    ProcessArguments survey_and_configuration;
+    TuneFiles files;
 };
 
 struct SimulateArguments {
@@ -95,13 +106,17 @@ void addCommon(CLI::App& command, Common& common) {
     addQuiet(command, common);
 }
 
-void addConfiguration(CLI::App& command, ProcessArguments& arguments) {
+void addSettings(CLI::App& command, ProcessArguments& arguments) {
     command.add_option("--config", arguments.config_file, "JSON file with parameters")->type_name("FILE");
     command
         .add_option("--set", arguments.settings, "Set one parameter; `terrawalk config describe` lists them")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
-    command.add_option("--method", arguments.method, "raw or ukf; short for --set fusion.method=...");
+}
+
+void addConfiguration(CLI::App& command, ProcessArguments& arguments) {
+    addSettings(command, arguments);
+    command.add_option("--method", arguments.method, "raw, ukf or aukf; short for --set fusion.method=...");
     command.add_option("--seed", arguments.seed, "Short for --set seed=...");
 }
 
@@ -122,8 +137,8 @@ Result<PipelineConfig> configuration(const ProcessArguments& arguments) {
 }
 
 // What a second person has to type for the same result; what changes no byte of it is left out.
-Provenance provenanceOf(const ProcessArguments& arguments) {
-    Provenance provenance{{"terrawalk", "process", arguments.survey.string()}};
+Provenance provenanceOf(const std::string& command, const ProcessArguments& arguments) {
+    Provenance provenance{{"terrawalk", command, arguments.survey.string()}};
     const auto add = [&](const std::string& option, const std::string& value) {
         provenance.command.push_back(option);
         provenance.command.push_back(value);
@@ -132,6 +147,11 @@ Provenance provenanceOf(const ProcessArguments& arguments) {
     for (const std::string& setting : arguments.settings) add("--set", setting);
     if (arguments.method) add("--method", *arguments.method);
     if (arguments.seed) add("--seed", std::to_string(*arguments.seed));
+    if (arguments.tune) {
+        provenance.command.emplace_back("--tune");
+        const std::vector<std::string> options = tuneArguments(arguments.tuning);
+        provenance.command.insert(provenance.command.end(), options.begin(), options.end());
+    }
     return provenance;
 }
 
@@ -139,14 +159,56 @@ int runProcess(const ProcessArguments& arguments, const Common& common, Terminal
                const std::stop_token& stop) {
     const auto config = configuration(arguments);
     if (!config) return fail(config.error(), common, progress);
-    const auto products =
-        processSurvey(arguments.survey, *config, provenanceOf(arguments), arguments.output, progress, stop);
+    std::optional<TuneOptions> tuning;
+    if (arguments.tune) {
+        tuning = arguments.tuning;
+        tuning->seed = config->seed;
+    }
+    const auto products = processSurvey(arguments.survey, *config, provenanceOf("process", arguments),
+                                        arguments.output, progress, stop, tuning);
     if (!products) return fail(products.error(), common, progress);
     progress.clear();
     if (common.json) {
         fmt::print("{}", summaryJson(*products, arguments.output));
     } else if (!common.quiet) {
         fmt::print("Written to {}\n{}", printable(arguments.output.string()), summaryText(*products));
+    }
+    return 0;
+}
+
+int runTune(TuneArguments& arguments, const Common& common, TerminalProgress& progress,
+            const std::stop_token& stop) {
+    ProcessArguments& asked = arguments.survey_and_configuration;
+    if (!asked.method) asked.method = "aukf";
+    const auto config = configuration(asked);
+    if (!config) return fail(config.error(), common, progress);
+    asked.tuning.seed = config->seed;
+    const auto tuned = tuneSurvey(asked.survey, *config, asked.tuning, arguments.files, progress, stop);
+    if (!tuned) return fail(tuned.error(), common, progress);
+    progress.clear();
+    const std::string file = arguments.files.output.string();
+    if (common.json) {
+        fmt::print("{}", toJson(tuned->outcome, tuned->survey, arguments.files.output));
+    } else if (!common.quiet) {
+        fmt::print("{}Written to {}\nUse it with: terrawalk process {} --config {} -o out\n",
+                   toText(tuned->outcome), printable(file), printable(asked.survey.string()),
+                   printable(file));
+    }
+    return 0;
+}
+
+int runCompare(const ProcessArguments& arguments, const Common& common, TerminalProgress& progress,
+               const std::stop_token& stop) {
+    const auto config = configuration(arguments);
+    if (!config) return fail(config.error(), common, progress);
+    const auto comparison = compareSurvey(arguments.survey, *config, provenanceOf("compare", arguments),
+                                          arguments.output, progress, stop);
+    if (!comparison) return fail(comparison.error(), common, progress);
+    progress.clear();
+    if (common.json) {
+        fmt::print("{}", toJson(*comparison, arguments.output));
+    } else if (!common.quiet) {
+        fmt::print("{}", toText(*comparison));
     }
     return 0;
 }
@@ -244,7 +306,39 @@ int run(int argc, char** argv) {
     process_command->add_option("-o,--output", process.output, "Folder for the products")
         ->capture_default_str();
     addConfiguration(*process_command, process);
+    CLI::Option* tune_first = process_command->add_flag(
+        "--tune", process.tune,
+        "Tune the method on the survey's own marks first; the tuned values are used where they do better on "
+        "marks left out");
+    for (CLI::Option* option : addTuneOptions(*process_command, process.tuning)) option->needs(tune_first);
     addCommon(*process_command, common);
+
+    TuneArguments tune;
+    CLI::App* tune_command =
+        app.add_subcommand("tune", "Find a method's parameters on the survey's own marks");
+    tune_command
+        ->add_option("survey", tune.survey_and_configuration.survey,
+                     "survey.json, or the folder that holds it")
+        ->required();
+    tune_command->add_option("-o,--output", tune.files.output, "File for the parameters")
+        ->capture_default_str();
+    addTuneOptions(*tune_command, tune.survey_and_configuration.tuning);
+    tune_command->add_flag("--resume", tune.files.resume, "Go on where an interrupted tuning stopped");
+    tune_command->add_option("--checkpoint", tune.files.checkpoint,
+                             "File that keeps the work of an interrupted tuning [OUTPUT.checkpoint]");
+    addConfiguration(*tune_command, tune.survey_and_configuration);
+    addCommon(*tune_command, common);
+
+    ProcessArguments compare;
+    compare.output.clear();
+    CLI::App* compare_command =
+        app.add_subcommand("compare", "Run every method over a survey and tell their errors side by side");
+    compare_command->add_option("survey", compare.survey, "survey.json, or the folder that holds it")
+        ->required();
+    compare_command->add_option("-o,--output", compare.output,
+                                "Folder for comparison.csv and comparison.txt; none: printed only");
+    addSettings(*compare_command, compare);
+    addCommon(*compare_command, common);
 
     fs::path inspected;
     CLI::App* inspect_command = app.add_subcommand("inspect", "Show what is in a log or a survey");
@@ -295,6 +389,8 @@ int run(int argc, char** argv) {
     if (common.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, common.threads);
     TerminalProgress progress(common.quiet);
     if (process_command->parsed()) return runProcess(process, common, progress, interrupt.token());
+    if (tune_command->parsed()) return runTune(tune, common, progress, interrupt.token());
+    if (compare_command->parsed()) return runCompare(compare, common, progress, interrupt.token());
     if (inspect_command->parsed()) return runInspect(inspected, common, progress, interrupt.token());
     if (simulate_command->parsed()) return runSimulate(simulate, common, progress, interrupt.token());
     if (experiment_command->parsed()) return runExperiments(experiment, common, progress, interrupt.token());

@@ -1,29 +1,10 @@
 #include "app/cli/simulate_options.hpp"
 
 #include <array>
-#include <map>
-#include <string>
+
+#include "app/cli/choice_option.hpp"
 
 namespace terrawalk {
-
-namespace {
-
-template <class Enum, std::size_t n>
-CLI::Option* addChoice(CLI::App& command, const std::string& option, Enum& value,
-                       const std::array<std::pair<Enum, std::string_view>, n>& names,
-                       const std::string& meaning) {
-    std::map<std::string, Enum> by_name;
-    std::string list;
-    for (const auto& [choice, text] : names) {
-        by_name.emplace(text, choice);
-        list += (list.empty() ? "" : ", ") + std::string(text);
-    }
-    return command.add_option(option, value, meaning + ": " + list)
-        ->transform(CLI::Transformer(by_name, CLI::ignore_case))
-        ->option_text("NAME [" + std::string(name(value)) + "]");
-}
-
-}  // namespace
 
 void addSimulationOptions(CLI::App& command, SimulationOptions& o) {
     command.add_option("--seed", o.seed, "Of all random numbers")->capture_default_str();

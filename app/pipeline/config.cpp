@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/pipeline/tune_json.hpp"
 #include "survey/frames.hpp"
 
 namespace terrawalk {
@@ -126,6 +128,14 @@ Parameter choice(std::string key, std::vector<std::pair<std::string, Enum>> name
     return p;
 }
 
+template <class Enum, std::size_t n>
+std::vector<std::pair<std::string, Enum>> named(
+    const std::array<std::pair<Enum, std::string_view>, n>& names) {
+    std::vector<std::pair<std::string, Enum>> list;
+    for (const auto& [value, text] : names) list.emplace_back(text, value);
+    return list;
+}
+
 #define TERRAWALK_FIELD(path)              \
     [](PipelineConfig & config) -> auto& { \
         return config.path;                \
@@ -134,9 +144,11 @@ Parameter choice(std::string key, std::vector<std::pair<std::string, Enum>> name
 std::vector<Parameter> fusionParameters() {
     return {
         choice<FusionMethod>(
-            "fusion.method",
-            {{"raw", FusionMethod::Raw}, {"ukf", FusionMethod::Ukf}, {"terrawalk", FusionMethod::Terrawalk}},
-            "raw: sensors as they are; ukf: 9-state unscented Kalman filter", TERRAWALK_FIELD(fusion.method)),
+            "fusion.method", named(kFusionMethodNames),
+            "raw: sensors as they are; ukf: 9-state unscented Kalman filter with gate and smoother; aukf: the "
+            "method of paper 000 as it is; terrawalk: filter with error states, then one adjustment of all "
+            "runs with their crossovers",
+            TERRAWALK_FIELD(fusion.method)),
         flag("fusion.smooth", "Rauch-Tung-Striebel pass after the filter", TERRAWALK_FIELD(fusion.smooth)),
         number("fusion.stands.start_s", 0.2, 600, "still seconds at a start mark",
                TERRAWALK_FIELD(fusion.stands.start_s)),
@@ -343,6 +355,68 @@ std::vector<Parameter> fusionParameters() {
     };
 }
 
+std::vector<Parameter> aukfParameters() {
+    return {
+        choice<FilterKind>("fusion.aukf.filter", named(kFilterNames),
+                           "which filter method aukf runs on the model of paper 000",
+                           TERRAWALK_FIELD(fusion.aukf.filter)),
+        number("fusion.aukf.noise.position_e_m2", 0, 1000,
+               "variance that a step adds to the position, east, m2",
+               TERRAWALK_FIELD(fusion.aukf.noise.position_e_m2)),
+        number("fusion.aukf.noise.position_n_m2", 0, 1000,
+               "variance that a step adds to the position, north, m2",
+               TERRAWALK_FIELD(fusion.aukf.noise.position_n_m2)),
+        number("fusion.aukf.noise.position_u_m2", 0, 1000,
+               "variance that a step adds to the position, up, m2",
+               TERRAWALK_FIELD(fusion.aukf.noise.position_u_m2)),
+        number("fusion.aukf.noise.velocity_e_m2ps2", 0, 1000,
+               "variance that a step adds to the velocity, east, m2/s2",
+               TERRAWALK_FIELD(fusion.aukf.noise.velocity_e_m2ps2)),
+        number("fusion.aukf.noise.velocity_n_m2ps2", 0, 1000,
+               "variance that a step adds to the velocity, north, m2/s2",
+               TERRAWALK_FIELD(fusion.aukf.noise.velocity_n_m2ps2)),
+        number("fusion.aukf.noise.velocity_u_m2ps2", 0, 1000,
+               "variance that a step adds to the velocity, up, m2/s2",
+               TERRAWALK_FIELD(fusion.aukf.noise.velocity_u_m2ps2)),
+        number("fusion.aukf.noise.acceleration_e_m2ps4", 0, 1000,
+               "variance that a step adds to the acceleration, east, m2/s4",
+               TERRAWALK_FIELD(fusion.aukf.noise.acceleration_e_m2ps4)),
+        number("fusion.aukf.noise.acceleration_n_m2ps4", 0, 1000,
+               "variance that a step adds to the acceleration, north, m2/s4",
+               TERRAWALK_FIELD(fusion.aukf.noise.acceleration_n_m2ps4)),
+        number("fusion.aukf.noise.acceleration_u_m2ps4", 0, 1000,
+               "variance that a step adds to the acceleration, up, m2/s4",
+               TERRAWALK_FIELD(fusion.aukf.noise.acceleration_u_m2ps4)),
+        number("fusion.aukf.nominal_interval_s", 0.001, 60,
+               "step to which the noise belongs; a step of another length adds its share of it",
+               TERRAWALK_FIELD(fusion.aukf.nominal_interval_s)),
+        number("fusion.aukf.unscented.alpha", 0.0001, 1, "spread of the sigma points",
+               TERRAWALK_FIELD(fusion.aukf.unscented.alpha)),
+        number("fusion.aukf.unscented.beta", 0, 10, "weight of the centre point, 2 for a Gaussian",
+               TERRAWALK_FIELD(fusion.aukf.unscented.beta)),
+        number("fusion.aukf.unscented.kappa", 0, 10, "secondary spread of the sigma points",
+               TERRAWALK_FIELD(fusion.aukf.unscented.kappa)),
+        flag("fusion.aukf.yaw_row.use", "heading as a measurement of the course",
+             TERRAWALK_FIELD(fusion.aukf.yaw_row.use)),
+        number("fusion.aukf.yaw_row.sigma_deg", 0.001, 180, "of the heading as a course",
+               TERRAWALK_FIELD(fusion.aukf.yaw_row.sigma_deg)),
+        number("fusion.aukf.yaw_row.slowest_mps", 0.001, 10, "below this speed the row is left out",
+               TERRAWALK_FIELD(fusion.aukf.yaw_row.slowest_mps)),
+        number("fusion.aukf.yaw_row.mount_offset_deg", -180, 180,
+               "yaw of the array less course of the walk, counter-clockwise",
+               TERRAWALK_FIELD(fusion.aukf.yaw_row.mount_offset_deg)),
+        number("fusion.aukf.adaptive.forgetting", 0, 1,
+               "filter adaptive-ukf: b, the noise remembers 1 / (1 - b) readings",
+               TERRAWALK_FIELD(fusion.aukf.adaptive.forgetting)),
+        number("fusion.aukf.adaptive.least_factor", 0.0001, 1,
+               "filter adaptive-ukf: least noise variance over the sensor's own",
+               TERRAWALK_FIELD(fusion.aukf.adaptive.least_factor)),
+        number("fusion.aukf.adaptive.greatest_factor", 1, 1e6,
+               "filter adaptive-ukf: greatest; a reading that asks for more is left out",
+               TERRAWALK_FIELD(fusion.aukf.adaptive.greatest_factor)),
+    };
+}
+
 std::vector<Parameter> groundParameters() {
     return {
         number("ground.sigma_range_near_m", 0.0001, 10, "of the range finder at short range",
@@ -475,6 +549,9 @@ std::vector<Parameter> surfaceParameters() {
         number("fusion.joint.pair_apart_per_m", 0, 10,
                "added to that, times the squared distance of the passes",
                TERRAWALK_FIELD(fusion.joint.pair_apart_per_m)),
+        number("fusion.joint.pair_plan_share", 0, 1,
+               "of the slope that turns errors of the plan into height",
+               TERRAWALK_FIELD(fusion.joint.pair_plan_share)),
         number("fusion.joint.pair_weight", 0.01, 1, "neighbouring crossovers share points",
                TERRAWALK_FIELD(fusion.joint.pair_weight)),
         number("fusion.joint.walk_mps_per_sqrt_s", 0.01, 100, "random walk of the horizontal velocity",
@@ -491,14 +568,15 @@ std::vector<Parameter> surfaceParameters() {
 }
 
 // An option that is added without a parameter could be neither set nor reported.
-static_assert(sizeof(FusionOptions) == 1000, "add the new option to fusionParameters()");
+static_assert(sizeof(FusionOptions) == 1176, "add the new option to fusionParameters()");
+static_assert(sizeof(AukfOptions) == 168, "add the new option to aukfParameters()");
 static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
 static_assert(sizeof(SurfaceOptions) == 32, "add the new option to surfaceParameters()");
 
 const std::vector<Parameter>& parameters() {
     static const std::vector<Parameter> kParameters = [] {
         std::vector<Parameter> all = fusionParameters();
-        for (const auto& part : {groundParameters(), surfaceParameters()})
+        for (const auto& part : {aukfParameters(), groundParameters(), surfaceParameters()})
             all.insert(all.end(), part.begin(), part.end());
         return all;
     }();
@@ -538,10 +616,24 @@ std::string shortText(const ordered_json& value) {
     return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+Result<void> applyTuning(PipelineConfig& config, const json& section) {
+    try {
+        config.tuning = tuningOf(section);
+    } catch (const json::exception&) {
+        return usageError("the section \"tuning\" is not as `terrawalk tune` writes it",
+                          "leave it as it was, or out");
+    }
+    return {};
+}
+
 // {"fusion": {"gnss": {"x": 1}}} sets "fusion.gnss.x".
 Result<void> applyObject(PipelineConfig& config, const json& object, const std::string& prefix) {
     for (const auto& [key, value] : object.items()) {
         const std::string path = prefix.empty() ? key : prefix + "." + key;
+        if (path == "tuning") {
+            if (auto done = applyTuning(config, value); !done) return done;
+            continue;
+        }
         // No key is longer than an assignment on a command line: what nests deeper is no configuration of
         // ours.
         if (value.is_object() && path.size() < 100) {
@@ -620,7 +712,8 @@ std::string toJson(const PipelineConfig& config) {
         std::replace(pointer.begin(), pointer.end(), '.', '/');
         document[ordered_json::json_pointer(pointer)] = p.get(config);
     }
-    return document.dump(2) + "\n";
+    if (config.tuning) document["tuning"] = tuningJson(*config.tuning);
+    return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::vector<UsedSetting> settingsReport(const PipelineConfig& requested, const PipelineConfig& used) {

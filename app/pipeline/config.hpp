@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,9 @@ struct PipelineConfig {
     SurfaceOptions surface;
     ReportOptions report;
     std::uint64_t seed = 1;  ///< of the confidence intervals in the report
+    /// How the values came about, where `terrawalk tune` made them: for the report, without effect on the
+    /// products.
+    std::optional<TuningRecord> tuning;
 };
 
 /// One parameter as text, for `terrawalk config describe`.
@@ -49,7 +53,8 @@ struct ParameterInfo {
 [[nodiscard]] Result<void> applySetting(PipelineConfig& config, std::string_view assignment);
 
 /// Overlays a JSON file on the configuration; keys that it lacks keep their value. Errors: BadData with file
-/// and, for broken JSON, line; unknown keys are refused.
+/// and, for broken JSON, line; unknown keys are refused. The section "tuning" is carried into
+/// `PipelineConfig::tuning`.
 [[nodiscard]] Result<void> applyConfigFile(PipelineConfig& config, const std::filesystem::path& file);
 
 /// The whole configuration as JSON text, readable by `applyConfigFile`; exact for every value.

@@ -18,6 +18,12 @@ namespace {
 constexpr std::array kExperiments{
     Experiment{"fig7", "Paper 000, Fig 7: convergence of optimisers on classical functions", runFig7},
     Experiment{"fig8", "Paper 000, Fig 8: evenness of initial populations", runFig8},
+    Experiment{"fig10", "Paper 000, Fig 10: loss by tuner, nine process noises", runFig10},
+    Experiment{"fig11", "Paper 000, Fig 11: loss by tuner, alpha, beta and kappa as well", runFig11},
+    Experiment{"fig12", "Paper 000, Fig 12: loss by population and iterations", runFig12},
+    Experiment{"fig13", "Paper 000, Fig 13: time and evaluations by tuner", runFig13},
+    Experiment{"fig14", "Paper 000, Fig 14: height error of raw, untuned and tuned surfaces", runFig14},
+    Experiment{"fig15", "Paper 000, Fig 15: five points, each walked to ten times", runFig15},
     Experiment{"accuracy", "Simulated surveys against their truth, by level of faults", runAccuracy},
     Experiment{"outage", "GNSS masked for 10, 30 and 60 s in a survey's logs, or in a simulated walk's",
                runOutage, true},
@@ -48,32 +54,14 @@ bool isNumeric(const ExperimentTable& table, std::size_t column) {
     });
 }
 
-std::string aligned(const ExperimentTable& table) {
-    std::vector<std::size_t> widths;
-    for (std::size_t c = 0; c < table.columns.size(); ++c) {
-        std::size_t width = characterCount(table.columns[c]);
-        for (const auto& row : table.rows) {
-            if (c < row.size()) width = std::max(width, characterCount(printed(row[c])));
-        }
-        widths.push_back(width);
-    }
-    std::string text;
-    const auto addRow = [&](const auto& cellText) {
-        std::string line;
-        for (std::size_t c = 0; c < widths.size(); ++c) {
-            const std::string words = cellText(c);
-            const std::string room(widths[c] - characterCount(words), ' ');
-            if (c > 0) line += "  ";
-            line += isNumeric(table, c) ? room + words : words + room;
-        }
-        line.erase(line.find_last_not_of(' ') + 1);
-        text += line + "\n";
-    };
-    addRow([&](std::size_t c) { return table.columns[c]; });
+nlohmann::ordered_json rowsOf(const ExperimentTable& table) {
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const auto& row : table.rows) {
-        addRow([&](std::size_t c) { return c < row.size() ? printed(row[c]) : std::string(); });
+        nlohmann::ordered_json object = nlohmann::ordered_json::object();
+        for (std::size_t c = 0; c < row.size(); ++c) object[table.columns[c]] = jsonCell(row[c]);
+        rows.push_back(std::move(object));
     }
-    return text;
+    return rows;
 }
 
 Result<void> makeFolder(const std::filesystem::path& folder) {
@@ -127,9 +115,37 @@ std::string conditions(const ExperimentReport& report, const ExperimentOptions& 
                        options.quick ? ", quick form" : "");
 }
 
+std::string toText(const ExperimentTable& table) {
+    std::vector<std::size_t> widths;
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        std::size_t width = characterCount(table.columns[c]);
+        for (const auto& row : table.rows) {
+            if (c < row.size()) width = std::max(width, characterCount(printed(row[c])));
+        }
+        widths.push_back(width);
+    }
+    std::string text;
+    const auto addRow = [&](const auto& cellText) {
+        std::string line;
+        for (std::size_t c = 0; c < widths.size(); ++c) {
+            const std::string words = cellText(c);
+            const std::string room(widths[c] - characterCount(words), ' ');
+            if (c > 0) line += "  ";
+            line += isNumeric(table, c) ? room + words : words + room;
+        }
+        line.erase(line.find_last_not_of(' ') + 1);
+        text += line + "\n";
+    };
+    addRow([&](std::size_t c) { return table.columns[c]; });
+    for (const auto& row : table.rows) {
+        addRow([&](std::size_t c) { return c < row.size() ? printed(row[c]) : std::string(); });
+    }
+    return text;
+}
+
 std::string toText(const ExperimentReport& report, const ExperimentOptions& options) {
     std::string text =
-        fmt::format("{} ({})\n\n{}", report.title, conditions(report, options), aligned(report.summary));
+        fmt::format("{} ({})\n\n{}", report.title, conditions(report, options), toText(report.summary));
     if (!report.notes.empty()) text += "\n";
     for (const std::string& note : report.notes) text += "- " + note + "\n";
     return text;
@@ -151,20 +167,18 @@ std::string toCsv(const ExperimentTable& table) {
     return text;
 }
 
+std::string toJson(const ExperimentTable& table) {
+    return rowsOf(table).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 std::string toJson(const ExperimentReport& report, const ExperimentOptions& options,
                    const ExperimentFiles& files) {
-    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-    for (const auto& row : report.summary.rows) {
-        nlohmann::ordered_json object = nlohmann::ordered_json::object();
-        for (std::size_t c = 0; c < row.size(); ++c) object[report.summary.columns[c]] = jsonCell(row[c]);
-        rows.push_back(std::move(object));
-    }
     const nlohmann::ordered_json document{{"format", "terrawalk-experiment 1"},
                                           {"title", report.title},
                                           {"simulated", report.simulated},
                                           {"seed", options.seed},
                                           {"quick", options.quick},
-                                          {"rows", std::move(rows)},
+                                          {"rows", rowsOf(report.summary)},
                                           {"notes", report.notes},
                                           {"csv", files.csv.string()},
                                           {"svg", files.svg.string()}};

@@ -68,7 +68,11 @@ struct Experiment {
 /// "simulated, seed 1", with what else holds for the run.
 [[nodiscard]] std::string conditions(const ExperimentReport& report, const ExperimentOptions& options);
 
-/// Numbers with four significant digits, columns aligned, notes below.
+/// Numbers with four significant digits, columns aligned.
+[[nodiscard]] std::string toText(const ExperimentTable& table);
+/// A list of objects, one for each row.
+[[nodiscard]] std::string toJson(const ExperimentTable& table);
+/// The table with notes below.
 [[nodiscard]] std::string toText(const ExperimentReport& report, const ExperimentOptions& options);
 [[nodiscard]] std::string toJson(const ExperimentReport& report, const ExperimentOptions& options,
                                  const ExperimentFiles& files);

@@ -12,7 +12,7 @@ namespace terrawalk {
 
 Result<GroundTrack> groundBelow(const Survey& survey, std::vector<FusedRun> runs,
                                 const GroundPointOptions& ground, std::stop_token stop) {
-    GroundTrack track{std::move(runs), {}, {}};
+    GroundTrack track{std::nullopt, std::move(runs), {}, {}};
     const std::size_t n = survey.runs.size();
     std::vector<std::vector<GroundPoint>> points(n);
     tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
@@ -32,7 +32,9 @@ Result<GroundTrack> trackGround(const Survey& survey, const FusionOptions& fusio
                                 const GroundPointOptions& ground, Progress& progress, std::stop_token stop) {
     auto fused = fuseSurvey(survey, fusion, progress, stop);
     if (!fused) return tl::unexpected(fused.error());
-    return groundBelow(survey, std::move(fused->runs), ground, stop);
+    auto track = groundBelow(survey, std::move(fused->runs), ground, stop);
+    if (track) track->adjustment = std::move(fused->adjustment);
+    return track;
 }
 
 std::vector<GroundPoint> pointsOfRun(const std::vector<GroundPoint>& points, const GroundTrack& track,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace terrawalk {
 /// One way from the logs to the ground: with fusion, with the sensors as they are, or with the truth of a
 /// simulation.
 struct GroundTrack {
+    std::optional<AdjustmentSummary> adjustment;
     std::vector<FusedRun> runs;            ///< one for each run of the survey, in its order
     std::vector<GroundPoint> points;       ///< run by run; local ENU
     std::vector<std::size_t> first_point;  ///< of each run, and the end

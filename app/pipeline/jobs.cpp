@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/pipeline/tune_jobs.hpp"
 #include "app/pipeline/version.hpp"
 #include "io/map_projection.hpp"
 #include "io/output_folder.hpp"
@@ -129,7 +130,7 @@ Result<Survey> openSurvey(const fs::path& path, Progress& progress, std::stop_to
 
 Result<Products> processSurvey(const fs::path& path, const PipelineConfig& config,
                                const Provenance& provenance, const fs::path& output, Progress& progress,
-                               std::stop_token stop) {
+                               std::stop_token stop, const std::optional<TuneOptions>& tuning) {
     // A folder that may not be replaced is said at once, not after the work.
     const fs::path project_file = projectFileOf(path);
     if (liesIn(project_file, output)) {
@@ -139,13 +140,25 @@ Result<Products> processSurvey(const fs::path& path, const PipelineConfig& confi
     }
     auto folder = OutputFolder::create(output);
     if (!folder) return tl::unexpected(folder.error());
-    PartialProgress reading(progress, 0.0, 0.2);
+    // A search takes far longer than all the rest.
+    const double search = tuning ? 0.9 : 0.0;
+    const auto after = [&](double share) {
+        return search + share * (1.0 - search);
+    };
+    PartialProgress reading(progress, 0.0, 0.2 * (1.0 - search));
     const auto survey = openSurvey(path, reading, stop);
     if (!survey) return tl::unexpected(survey.error());
-    PartialProgress processing(progress, 0.2, 0.8);
-    auto products = process(*survey, config, processing, stop);
+    Result<PipelineConfig> chosen = config;
+    PartialProgress searching(progress, 0.2 * (1.0 - search), after(0.2));
+    if (tuning) chosen = tunedWhereBetter(*survey, config, *tuning, searching, stop);
+    if (!chosen) return tl::unexpected(chosen.error());
+    PartialProgress processing(progress, after(0.2), after(0.8));
+    auto products = process(*survey, *chosen, processing, stop);
     if (!products) return products;
-    PartialProgress writing(progress, 0.8, 1.0);
+    // Tuned values were used, not requested.
+    const std::vector<UsedSetting> settings = settingsReport(config, products->used);
+    std::copy(settings.begin(), settings.end(), products->report.settings.begin());
+    PartialProgress writing(progress, after(0.8), 1.0);
     if (auto done = writeProducts(*survey, *products, provenance, *folder, writing, stop); !done) {
         return tl::unexpected(done.error());
     }

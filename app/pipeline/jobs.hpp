@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "app/pipeline/config.hpp"
 #include "app/pipeline/inspect.hpp"
 #include "app/pipeline/process.hpp"
+#include "app/pipeline/tune.hpp"
 #include "fusion/simulation.hpp"
 #include "survey/progress.hpp"
 #include "survey/result.hpp"
@@ -24,10 +26,13 @@ namespace terrawalk {
 
 /// Reads, processes, and writes the products into `output`. The returned products are those that were
 /// written.
+/// @param tuning  tune the configured method on the survey's own marks first, and use the tuned values where
+///                they do better on marks left out
 [[nodiscard]] Result<Products> processSurvey(const std::filesystem::path& project_file_or_folder,
                                              const PipelineConfig& config, const Provenance& provenance,
                                              const std::filesystem::path& output, Progress& progress,
-                                             std::stop_token stop);
+                                             std::stop_token stop,
+                                             const std::optional<TuneOptions>& tuning = {});
 
 /// Writes a simulated survey with its truth: survey.json, control.csv, logs/, truth/ and manifest.json.
 [[nodiscard]] Result<void> simulateSurveyFolder(const SimulationOptions& options,

@@ -31,6 +31,17 @@ struct Comparison {
     }
 };
 
+/// Marks whose heights the estimator knew: the adjustment takes passes over any control mark, a filter only
+/// those it stood on.
+std::set<std::string> usedMarks(const Survey& survey, const FusionOptions& fusion) {
+    std::set<std::string> names = tiedMarks(survey, fusion.stands);
+    if (fusion.method != FusionMethod::Terrawalk || !fusion.joint.use_crossovers) return names;
+    for (const ControlMark& mark : survey.marks) {
+        if (mark.role == MarkRole::Control) names.insert(mark.name);
+    }
+    return names;
+}
+
 /// Positions on marks and nearest samples of one track.
 void compareTrack(const Survey& survey, const GroundTrack& track, const PipelineConfig& config, Stage stage,
                   bool tied, Comparison& comparison) {
@@ -41,7 +52,7 @@ void compareTrack(const Survey& survey, const GroundTrack& track, const Pipeline
                                          tied));
     }
     const std::set<std::string> tied_marks =
-        tied ? tiedMarks(survey, config.fusion.stands) : std::set<std::string>{};
+        tied ? usedMarks(survey, config.fusion) : std::set<std::string>{};
     comparison.add(nearestSampleResiduals(survey, track.points, stage, tied_marks,
                                           {.greatest_distance_m = config.report.nearest_sample_limit_m}));
 }
@@ -289,8 +300,47 @@ Result<Comparison> compareBeforeFusion(const Survey& survey, const PipelineConfi
     return comparison;
 }
 
+/// Marks that the parameters were tuned on are no test of what came out. Another survey's mark of the same
+/// name is another mark.
+void markTunedOn(const Survey& survey, const TuningRecord& tuning, std::vector<Residual>& residuals) {
+    constexpr double kSameMark_m = 0.001;
+    std::set<std::string> tuned_on;
+    for (const ControlMark& mark : tuning.marks) {
+        const auto own = survey.findMark(mark.name);
+        if (own && (own->enu_m - mark.enu_m).norm() < kSameMark_m) tuned_on.insert(mark.name);
+    }
+    for (Residual& residual : residuals) {
+        if (residual.stage != Stage::BeforeFusion && tuned_on.contains(residual.mark)) {
+            residual.used_by_estimator = true;
+        }
+    }
+}
+
+std::string filterName(FilterKind filter) {
+    switch (filter) {
+        case FilterKind::Ekf:
+            return "extended Kalman filter";
+        case FilterKind::Ckf:
+            return "cubature Kalman filter";
+        case FilterKind::Ukf:
+            return "unscented Kalman filter";
+        case FilterKind::SquareRootUkf:
+            return "square-root unscented Kalman filter";
+        case FilterKind::AdaptiveUkf:
+            return "unscented Kalman filter with adaptive measurement noise";
+    }
+    return {};
+}
+
 std::string methodName(const FusionOptions& options) {
     if (options.method == FusionMethod::Raw) return "raw sensors, no fusion";
+    if (options.method == FusionMethod::Aukf) {
+        return "9-state " + filterName(options.aukf.filter) + " as published (Xie et al. 2024), forward only";
+    }
+    if (options.method == FusionMethod::Terrawalk) {
+        return "adaptive unscented Kalman filter with error states, then joint adjustment of all runs with "
+               "their crossovers";
+    }
     return options.smooth ? "9-state unscented Kalman filter, Rauch-Tung-Striebel smoothed"
                           : "9-state unscented Kalman filter";
 }
@@ -307,23 +357,23 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     auto fused = trackGround(survey, config.fusion, config.ground, fusing, stop);
     if (!fused) return tl::unexpected(fused.error());
 
-    const bool tied = config.fusion.method != FusionMethod::Raw;
+    const bool is_fused = config.fusion.method != FusionMethod::Raw;
+    const bool tied = tiesToMarks(config.fusion.method);
     Result<Comparison> comparison;
-    if (tied) {
+    if (is_fused) {
         PartialProgress following(progress, 0.5, 0.7);
         comparison = compareBeforeFusion(survey, config, *projection, following, stop);
         if (!comparison) return tl::unexpected(comparison.error());
     }
-    compareTrack(survey, *fused, config, tied ? Stage::Fused : Stage::BeforeFusion, tied, *comparison);
+    compareTrack(survey, *fused, config, is_fused ? Stage::Fused : Stage::BeforeFusion, tied, *comparison);
 
     PartialProgress triangulating(progress, 0.7, 0.85);
     progress.report(0.7, "triangulating");
     auto surface = makeSurface(survey, fused->points, config.surface, *projection, triangulating, stop);
     if (!surface) return tl::unexpected(surface.error());
     const DelaunayTin& tin = surface->tin;
-    comparison->add(
-        surfaceResiduals(survey.marks, heightOf(tin, *projection), Stage::Surface,
-                         tied ? tiedMarks(survey, config.fusion.stands) : std::set<std::string>{}));
+    comparison->add(surfaceResiduals(survey.marks, heightOf(tin, *projection), Stage::Surface,
+                                     tied ? usedMarks(survey, config.fusion) : std::set<std::string>{}));
 
     Products products;
     products.used = config;
@@ -348,6 +398,7 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     report.settings.push_back(
         {"survey.vertical_datum", survey.vertical_datum, projection->heightReference()});
     report.method = methodName(config.fusion);
+    report.adjustment = fused->adjustment;
     for (std::size_t i = 0; i < survey.runs.size(); ++i) {
         report.runs.push_back(
             reportRun(survey.runs[i], fused->runs[i], pointsOfRun(products.ground_points, *fused, i)));
@@ -360,6 +411,8 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     }
     report.marks = survey.marks;
     report.residuals = std::move(comparison->residuals);
+    report.tuning = config.tuning;
+    if (config.tuning && config.tuning->in_use) markTunedOn(survey, *config.tuning, report.residuals);
     report.missing_residuals = std::move(comparison->missing);
     auto relief = reliefPicture(tin, *projection, products.ground_points);
     if (!relief) return tl::unexpected(relief.error());

@@ -3,6 +3,7 @@
 //
 //     bench_optimisers [--evaluations N] [--seeds N] [--shift-seed N] [--kinds isma,sma,...]
 //
+// cmaes is left out unless asked for: in a hundred dimensions its matrices take minutes.
 // A shift seed that was not used while the rules were chosen tells what they are worth.
 
 #include <fmt/format.h>
@@ -46,7 +47,7 @@ struct Arguments {
     std::uint64_t shift_seed = 20'260'101;
     std::vector<OptimiserKind> kinds{OptimiserKind::Isma, OptimiserKind::IsmaPrinted, OptimiserKind::Sma,
                                      OptimiserKind::Pso,  OptimiserKind::Ga,          OptimiserKind::Sa,
-                                     OptimiserKind::Abc,  OptimiserKind::Sade,        OptimiserKind::Cmaes};
+                                     OptimiserKind::Abc,  OptimiserKind::Sade};
 };
 
 std::vector<OptimiserKind> kindsOf(std::string_view list) {
@@ -239,7 +240,7 @@ int main(int argc, char** argv) {
                arguments.seeds, arguments.shift_seed);
     const auto table = medians(arguments);
     printMedians(arguments, table);
-    fmt::print("\n");
+    fmt::print("\nvalues below {:g} count as equal\n", kFloor);
     printComparisons(arguments, table);
     printOverheads(arguments);
 }

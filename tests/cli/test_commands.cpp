@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tests/cli/cli_support.hpp"
 
@@ -183,6 +184,45 @@ TEST(Process, KeepsTheFilesOfOthersInAnEarlierOutput) {
               0);
     EXPECT_EQ(bytesOf(scratch / "out/map.qgz"), "mine");
     EXPECT_EQ(json::parse(bytesOf(scratch / "out/report.json")).at("surface").at("cell_m"), 1.0);
+}
+
+// The paper's method from the log to the DEM: named in the report, untied to the stops, other than ours, and
+// each of its filters other than the next.
+TEST(Process, RunsThePapersMethodWithEachOfItsFilters) {
+    const TemporaryFolder scratch;
+    std::set<std::string> tracks;
+    for (const std::string filter : {"ukf", "adaptive-ukf"}) {
+        const auto outcome = terrawalk({"process", quickPlot().string(), "-o", (scratch / filter).string(),
+                                        "--method", "aukf", "--set", "fusion.aukf.filter=" + filter});
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        const json report = json::parse(bytesOf(scratch / filter / "report.json"));
+        EXPECT_THAT(report.at("method").get<std::string>(), HasSubstr("as published"));
+        for (const json& residual : report.at("residuals")) {
+            EXPECT_FALSE(residual.at("used_by_estimator").get<bool>()) << residual.dump();
+        }
+        tracks.insert(bytesOf(scratch / filter / "trajectory/S01.csv"));
+    }
+    EXPECT_EQ(tracks.size(), 2u);
+}
+
+TEST(Compare, PrintsAndWritesOneRowForEachMethod) {
+    const TemporaryFolder scratch;
+    const auto printed = terrawalk({"compare", quickPlot().string()});
+    ASSERT_EQ(printed.exit_code, 0) << printed.err;
+    EXPECT_THAT(printed.out, HasSubstr("aukf square-root-ukf"));
+    const auto outcome = terrawalk({"compare", quickPlot().string(), "-o", (scratch / "out").string(),
+                                    "--json", "--set", "fusion.aukf.noise.velocity_e_m2ps2=0.5"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const json comparison = json::parse(outcome.out);
+    EXPECT_TRUE(comparison.at("truth").get<bool>());
+    EXPECT_EQ(comparison.at("methods").at(0).at("method"), "raw");
+    EXPECT_GT(comparison.at("methods").at(0).at("area H [m]").get<double>(), 0.0);
+    EXPECT_TRUE(fs::is_regular_file(scratch / "out/comparison.csv"));
+    const json manifest = json::parse(bytesOf(scratch / "out/manifest.json"));
+    EXPECT_EQ(manifest.at("configuration").at("fusion").at("aukf").at("noise").at("velocity_e_m2ps2"), 0.5);
+    EXPECT_THAT(manifest.at("command").dump(), HasSubstr("velocity_e_m2ps2=0.5"));
+    // A survey is no place for it.
+    EXPECT_EQ(terrawalk({"compare", quickPlot().string(), "-o", quickPlot().string()}).exit_code, 2);
 }
 
 TEST(Inspect, TellsSensorsRatesAndFixes) {

@@ -31,6 +31,26 @@ TEST(RandomNumbers, KeepWhatASeedMeans) {
     EXPECT_EQ(random.uniform(), 0x1.33b22422c10b3p-1);
 }
 
+// The first outputs of SplitMix64 from state 1234567, as its authors' reference prints them.
+TEST(RandomNumbers, QuickOnesAreSplitMix64) {
+    SplitMix64 engine(1234567);
+    EXPECT_EQ(engine(), 6457827717110365317ULL);
+    EXPECT_EQ(engine(), 3203168211198807973ULL);
+    EXPECT_EQ(engine(), 9817491932198370423ULL);
+}
+
+TEST(RandomNumbers, IndexTakesEachValueEvenly) {
+    constexpr std::size_t kValues = 7;
+    std::vector<int> counts(kValues, 0);
+    QuickRandomNumbers random({44});
+    for (int i = 0; i < kDraws; ++i) ++counts.at(random.index(kValues));
+    const double expected = static_cast<double>(kDraws) / kValues;
+    double chi_square = 0.0;
+    for (const int count : counts) chi_square += (count - expected) * (count - expected) / expected;
+    // Mean 6, variance 12.
+    EXPECT_LT(chi_square, 6.0 + 4.0 * std::sqrt(12.0));
+}
+
 TEST(RandomNumbers, UniformFillsItsBinsEvenly) {
     constexpr int kBins = 100;
     std::vector<int> counts(kBins, 0);

@@ -279,7 +279,7 @@ TEST(ReportPage, KeepsTiedComparisonsOutOfTablesAndPlots) {
     EXPECT_EQ(standErrorPlot(report), "");
     EXPECT_EQ(planErrorPlot(report), "");
     EXPECT_EQ(heightHistogram(report), "");
-    EXPECT_THAT(reportHtml(report), HasSubstr("no, tied"));
+    EXPECT_THAT(reportHtml(report), HasSubstr("no, used"));
 }
 
 TEST(ReportPage, OfHundredsOfMarksTakesAMoment) {

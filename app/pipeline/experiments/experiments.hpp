@@ -10,6 +10,18 @@ namespace terrawalk {
                                                std::stop_token stop);
 [[nodiscard]] Result<ExperimentReport> runFig8(const ExperimentOptions& options, Progress& progress,
                                                std::stop_token stop);
+[[nodiscard]] Result<ExperimentReport> runFig10(const ExperimentOptions& options, Progress& progress,
+                                                std::stop_token stop);
+[[nodiscard]] Result<ExperimentReport> runFig11(const ExperimentOptions& options, Progress& progress,
+                                                std::stop_token stop);
+[[nodiscard]] Result<ExperimentReport> runFig12(const ExperimentOptions& options, Progress& progress,
+                                                std::stop_token stop);
+[[nodiscard]] Result<ExperimentReport> runFig13(const ExperimentOptions& options, Progress& progress,
+                                                std::stop_token stop);
+[[nodiscard]] Result<ExperimentReport> runFig14(const ExperimentOptions& options, Progress& progress,
+                                                std::stop_token stop);
+[[nodiscard]] Result<ExperimentReport> runFig15(const ExperimentOptions& options, Progress& progress,
+                                                std::stop_token stop);
 
 [[nodiscard]] Result<ExperimentReport> runAccuracy(const ExperimentOptions& options, Progress& progress,
                                                    std::stop_token stop);

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <stdexcept>
+
+#include "fusion/positioning_model.hpp"
+#include "fusion/simulation.hpp"
+
+namespace terrawalk {
+
+/// A simulated survey; throws when there is none.
+inline SimulatedSurvey simulatedSurvey(const SimulationOptions& options) {
+    SilentProgress progress;
+    auto simulated = simulateSurvey(options, progress, {});
+    if (!simulated) throw std::runtime_error(simulated.error().text());
+    return std::move(*simulated);
+}
+
+inline MeasuredRun measured(const Survey& survey, const Run& run, const FusionOptions& options) {
+    RunNotes notes;
+    SensorLedger ledger;
+    const auto attitudes = epochAttitudes(run.log, options.attitude, notes);
+    const auto reference = runReference(survey, run, options, attitudes, notes);
+    if (!reference) throw std::runtime_error(reference.error().text());
+    return measuredRun(survey, run, options, attitudes, *reference, ledger);
+}
+
+}  // namespace terrawalk
