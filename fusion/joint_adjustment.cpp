@@ -1030,11 +1030,19 @@ class JointAdjuster {
         pairs_ = findCrossovers(samples, options_.joint.crossovers);
         mark_passes_.clear();
         for (const ControlMark& mark : survey_.marks) {
-            if (mark.role != MarkRole::Control) continue;
+            if (mark.role != MarkRole::Control || onlyShowsErrors(mark)) continue;
             for (const MarkPass& pass : findMarkPasses(samples, mark.enu_m, options_.joint.crossovers)) {
                 mark_passes_.push_back(pass);
             }
         }
+    }
+
+    // The target of a fixed-point run that the options keep from the estimator.
+    bool onlyShowsErrors(const ControlMark& mark) const {
+        if (options_.stands.tie_fixed_targets) return false;
+        return std::any_of(survey_.runs.begin(), survey_.runs.end(), [&](const Run& run) {
+            return run.kind == RunKind::FixedPoint && run.target == mark.name;
+        });
     }
 
     double misfit() const {

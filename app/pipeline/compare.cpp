@@ -294,6 +294,8 @@ std::vector<ComparedMethod> comparedMethods(const FusionOptions& options) {
     for (const auto& [method, method_name] : kFusionMethodNames) {
         FusionOptions fusion = options;
         fusion.method = method;
+        // The targets of fixed-point runs are what methods are compared at: no method may know them.
+        fusion.stands.tie_fixed_targets = false;
         if (method != FusionMethod::Aukf) {
             methods.push_back({std::string(method_name), fusion});
             continue;

@@ -176,14 +176,21 @@ TEST(FuseRun, NeverLooksAtCheckMarks) {
     }
 }
 
-TEST(FuseRun, NeverTiesAFixedPointRunToItsTarget) {
-    MadeRun made = makeRun();
-    made.run().kind = RunKind::FixedPoint;
-    made.run().target = "T01";
-    const FusedRun before = fused(made);
-    made.survey.marks[0].enu_m += Eigen::Vector3d(5.0, 5.0, 5.0);
-    EXPECT_EQ(before.trajectory.epochs.back().position_enu_m,
-              fused(made).trajectory.epochs.back().position_enu_m);
+TEST(FuseRun, TiesAFixedPointRunToItsTargetOnlyWhereAsked) {
+    for (const bool tie : {false, true}) {
+        FusionOptions options;
+        options.method = FusionMethod::Ukf;
+        options.stands.tie_fixed_targets = tie;
+        MadeRun made = makeRun();
+        made.run().kind = RunKind::FixedPoint;
+        made.run().target = "T01";
+        const FusedRun before = fused(made, options);
+        made.survey.marks[0].enu_m += Eigen::Vector3d(5.0, 5.0, 5.0);
+        const FusedRun after = fused(made, options);
+        EXPECT_EQ(
+            before.trajectory.epochs.back().position_enu_m == after.trajectory.epochs.back().position_enu_m,
+            !tie);
+    }
 }
 
 TEST(FuseRun, RemovesTheLeverArmOfTheAntenna) {

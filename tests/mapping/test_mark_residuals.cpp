@@ -287,7 +287,8 @@ TEST(TiedMarks, AreThoseThatTheStandsAllow) {
     survey.runs[0].log.time_s = {0.0, 50.0};
     survey.runs[1].stops = {{"K", 1.0, 2.0}};
     survey.runs[1].log.time_s = {0.0, 50.0};
-    EXPECT_THAT(tiedMarks(survey, {}), ElementsAre("C"));
+    EXPECT_THAT(tiedMarks(survey, {}), ElementsAre("C", "T"));
+    EXPECT_THAT(tiedMarks(survey, {.tie_fixed_targets = false}), ElementsAre("C"));
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ TEST(OutageMeasure, ForwardSeesNothingOfWhatFollows) {
     spoilGnss(walk.survey.runs[0].log, before.start_s + before.length_s, 1e9);
     const Outage after = measured(walk, oneOutage()).front();
     EXPECT_EQ(before.error(OutageMethod::Forward), after.error(OutageMethod::Forward));
-    EXPECT_GT(after.error(OutageMethod::Smoothed), before.error(OutageMethod::Smoothed));
+    EXPECT_NE(after.error(OutageMethod::Smoothed), before.error(OutageMethod::Smoothed));
 }
 
 TEST(OutageMeasure, ExactSensorsKeepTheTrack) {
