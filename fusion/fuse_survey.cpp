@@ -7,7 +7,6 @@
 
 #include "fusion/fuse_run.hpp"
 #include "fusion/joint_adjustment.hpp"
-#include "fusion/run_reference.hpp"
 
 namespace terrawalk {
 
@@ -48,19 +47,15 @@ class SideBySide {
     double weight_ = 0.0;
 };
 
-Result<FusedSurvey> adjusted(const Survey& survey, FusedSurvey fused, const FusionOptions& options,
+Result<FusedSurvey> adjusted(const Survey& survey, std::vector<RunFusion> runs, const FusionOptions& options,
                              Progress& progress, std::stop_token stop) {
+    FusedSurvey fused;
     std::vector<RunStart> starts;
     for (std::size_t i = 0; i < survey.runs.size(); ++i) {
-        RunStart start;
-        start.run = &survey.runs[i];
-        RunNotes again;
-        start.attitudes = epochAttitudes(start.run->log, options.attitude, again);
-        const auto reference = runReference(survey, *start.run, options, start.attitudes, again);
-        if (!reference) return tl::unexpected(reference.error());
-        start.reference = *reference;
-        start.trajectory = std::move(fused.runs[i].trajectory);
-        starts.push_back(std::move(start));
+        RunFusion& run = runs[i];
+        starts.push_back({&survey.runs[i], std::move(run.attitudes), std::move(run.reference),
+                          std::move(run.fused.trajectory), std::move(run.gnss_gated)});
+        fused.runs.push_back(std::move(run.fused));
     }
     auto solution = adjustJointly(survey, starts, options, progress, stop);
     for (std::size_t i = 0; i < survey.runs.size(); ++i) {
@@ -85,22 +80,25 @@ Result<FusedSurvey> adjusted(const Survey& survey, FusedSurvey fused, const Fusi
 Result<FusedSurvey> fuseSurvey(const Survey& survey, const FusionOptions& options, Progress& progress,
                                std::stop_token stop) {
     const std::size_t n = survey.runs.size();
-    std::vector<Result<FusedRun>> fused(n, cancelled());
+    std::vector<Result<RunFusion>> fusions(n, cancelled());
     SideBySide parts(survey, progress);
     tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
         if (stop.stop_requested()) return;
-        fused[i] = fuseRun(survey, survey.runs[i], options, parts.of(i), stop);
+        fusions[i] = fuseRunInFull(survey, survey.runs[i], options, parts.of(i), stop);
     });
     if (stop.stop_requested()) return cancelled();
-    FusedSurvey result;
-    result.runs.reserve(n);
-    for (Result<FusedRun>& run : fused) {
+    std::vector<RunFusion> runs;
+    runs.reserve(n);
+    for (Result<RunFusion>& run : fusions) {
         if (!run) return tl::unexpected(run.error());
-        result.runs.push_back(std::move(*run));
+        runs.push_back(std::move(*run));
     }
     if (options.method == FusionMethod::Terrawalk) {
-        return adjusted(survey, std::move(result), options, progress, stop);
+        return adjusted(survey, std::move(runs), options, progress, stop);
     }
+    FusedSurvey result;
+    result.runs.reserve(n);
+    for (RunFusion& run : runs) result.runs.push_back(std::move(run.fused));
     return result;
 }
 

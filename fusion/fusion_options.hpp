@@ -202,6 +202,17 @@ struct LastingErrorOptions {
     double gyro_walk_deg_per_sqrt_s = 0.05;  ///< by which a turn summed up from the gyro errs
 };
 
+/// The filter with error states, first stage of `Terrawalk`. Its random walk of the horizontal velocity is
+/// that of the joint adjustment.
+struct DriftFilterOptions {
+    double climb_sigma_mps = 0.3;  ///< vertical velocity of the array
+    double climb_correlation_s = 1.5;
+    bool adapt = true;             ///< noise of each sensor follows its innovations
+    double adapt_memory_s = 60.0;  ///< in which older innovations fade
+    double least_factor = 0.5;     ///< limits of the factor on the variance
+    double greatest_factor = 4.0;
+};
+
 /// The joint adjustment of all runs.
 struct JointOptions {
     double knot_s = 1.0;  ///< between the knots of the track's correction
@@ -294,6 +305,7 @@ struct FusionOptions {
     TieOptions ties;
     RobustOptions robust;
     LastingErrorOptions lasting;
+    DriftFilterOptions drift;
     JointOptions joint;
     DivergenceOptions divergence;
     AukfOptions aukf;

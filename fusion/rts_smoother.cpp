@@ -1,29 +1,13 @@
 #include "fusion/rts_smoother.hpp"
 
-#include <Eigen/Cholesky>
-
 namespace terrawalk {
 
 PackedEstimate packed(const StateEstimate& state) {
-    PackedEstimate out;
-    out.mean = state.mean;
-    std::size_t k = 0;
-    for (int column = 0; column < 9; ++column) {
-        for (int row = column; row < 9; ++row) out.covariance[k++] = state.covariance(row, column);
-    }
-    return out;
+    return {state.mean, packedTriangle<9>(state.covariance)};
 }
 
 StateEstimate unpacked(const PackedEstimate& packed_state) {
-    StateEstimate out;
-    out.mean = packed_state.mean;
-    std::size_t k = 0;
-    for (int column = 0; column < 9; ++column) {
-        for (int row = column; row < 9; ++row) {
-            out.covariance(row, column) = out.covariance(column, row) = packed_state.covariance[k++];
-        }
-    }
-    return out;
+    return {packed_state.mean, unpackedTriangle<9>(packed_state.covariance)};
 }
 
 Transition transitionInto(std::size_t epoch, std::span<const double> time_s, const ProcessOptions& options,
@@ -47,14 +31,8 @@ std::vector<PackedEstimate> smoothed(std::vector<PackedEstimate> filtered, std::
         if (k % 256 == 0 && stop.stop_requested()) break;
         const StateEstimate here = unpacked(filtered[k]);
         const Transition step = transitionInto(k + 1, time_s, options, inflations);
-        const StateEstimate prediction = predicted(here, step);
-        const Matrix9d FP = step.F * here.covariance;
-        const Matrix9d G = prediction.covariance.ldlt().solve(FP).transpose();
-        const Matrix9d I_GF = Matrix9d::Identity() - G * step.F;
-        const Matrix9d P =
-            I_GF * here.covariance * I_GF.transpose() + G * (next.covariance + step.Q) * G.transpose();
-        next.mean = here.mean + G * (next.mean - prediction.mean);
-        next.covariance = 0.5 * (P + P.transpose());
+        const Matrix9d G =
+            stepBack<9>(here.mean, here.covariance, step.F, step.Q, next.mean, next.covariance);
         const Vector9d& response = filtered[k].height_response;
         next_response = (response + G * (next_response - step.F * response)).eval();
         filtered[k] = packed(next);

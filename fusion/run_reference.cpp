@@ -130,12 +130,17 @@ class ReferenceFinder {
     }
 
     double medianHeightAboveGround(const std::vector<std::size_t>& epochs) const {
-        std::vector<Weighted> heights;
+        std::vector<double> heights;
         for (const std::size_t i : epochs) {
             const double height_m = heightAboveGround(log_, i, attitudes_[i].attitude, options_.ties);
-            if (present(height_m)) heights.push_back({height_m});
+            if (present(height_m)) heights.push_back(height_m);
         }
-        return median(std::move(heights));
+        if (heights.empty()) return kMissing;
+        // Of an even number the upper one: what stands in the way only shortens a range, and the mean of two
+        // that differ would be near neither.
+        const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+        std::nth_element(heights.begin(), middle, heights.end());
+        return *middle;
     }
 
     // Of a stand as a whole: the hand moves less than grass shortens single ranges.

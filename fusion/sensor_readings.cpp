@@ -161,7 +161,7 @@ void readBarometer(const ReadingContext& context, std::size_t i, const StateEsti
 void addFlowRows(const Eigen::Vector2d& flow_mps, const EpochAttitude& attitude, const FlowOptions& options,
                  double factor, Reading& reading) {
     const double speed = flow_mps.norm();
-    const double noise = options.variance_m2ps2 + options.variance_per_v2 * speed * speed;
+    const double noise = flowVariance(options, speed);
     const double lasting_along = squared(options.scale_sigma * speed);
     const double lasting_across = squared(attitude.sigma_heading_rad * speed);
     const double course_rad =
@@ -374,6 +374,10 @@ double levelDrop(const Eigen::Vector3d& enu_m) {
 BarometerVariance barometerVariance(const BarometerOptions& options, double since_zero_s) {
     return {squared(options.sigma_m), squared(options.gust_sigma_m) + squared(options.drift_m_per_sqrt_min) *
                                                                           std::abs(since_zero_s) / 60.0};
+}
+
+double flowVariance(const FlowOptions& options, double speed_mps) {
+    return options.variance_m2ps2 + options.variance_per_v2 * squared(speed_mps);
 }
 
 double RunReference::barometricUp(double pressure_pa, double scale, const Eigen::Vector3d& near_enu_m) const {

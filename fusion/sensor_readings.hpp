@@ -90,6 +90,9 @@ struct BarometerVariance {
 };
 [[nodiscard]] BarometerVariance barometerVariance(const BarometerOptions& options, double since_zero_s);
 
+/// Variance of white noise of the flow at a speed [m/s], each component.
+[[nodiscard]] double flowVariance(const FlowOptions& options, double speed_mps);
+
 /// Height of the array's origin above the ground it measures, from range, tilt and lever arm; missing without
 /// a range between the limits of `options` (finders report a far range where nothing came back).
 [[nodiscard]] double heightAboveGround(const ArrayLog& log, std::size_t epoch, const Attitude& attitude,

@@ -55,32 +55,18 @@ StateEstimate updated(const StateEstimate& state, const LinearRow& row) {
 LinearRow linearised(const StateEstimate& state, const YawRow& row, const UnscentedOptions& options) {
     static_assert(offset(StateBlock::Velocity) == 0,
                   "the leading Cholesky columns must be those of the velocity");
-    const double spread = sigmaPointSpread(options, 9);
-    const double weight = 0.5 / spread;
-    const Eigen::Matrix2d P = state.covariance.topLeftCorner<2, 2>();
-    const Eigen::Matrix2d L = P.llt().matrixL();
     const Eigen::Vector2d velocity = state.mean.head<2>();
     const double centre_rad = course(velocity);
-
-    Eigen::Vector2d slope;    // d: cross-covariance in the columns of L
-    double mean_shift = 0.0;  // m
-    double curvature = 0.0;   // first term of Omega
-    for (int i = 0; i < 2; ++i) {
-        const Eigen::Vector2d step = std::sqrt(spread) * L.col(i);
-        const double above = wrapAngle(course(velocity + step) - centre_rad);
-        const double below = wrapAngle(course(velocity - step) - centre_rad);
-        slope[i] = (above - below) / (2.0 * std::sqrt(spread));
-        mean_shift += weight * (above + below);
-        curvature += 0.5 * weight * (above + below) * (above + below);
-    }
-    const double omega = curvature + (options.beta - options.alpha * options.alpha) * mean_shift * mean_shift;
-    const Eigen::Vector2d gradient = L.transpose().triangularView<Eigen::Upper>().solve(slope);
+    const auto transformed = statisticallyLinearised<2>(
+        state.covariance.topLeftCorner<2, 2>(), sigmaPointSpread(options, 9), options,
+        [&](const Eigen::Vector2d& step) { return wrapAngle(course(velocity + step) - centre_rad); });
 
     LinearRow linear;
     linear.block = StateBlock::Velocity;
-    linear.direction << gradient, 0.0;
-    linear.value = gradient.dot(velocity) + wrapAngle(row.yaw_rad - centre_rad - mean_shift);
-    linear.variance = row.variance + omega;
+    linear.direction << transformed.gradient, 0.0;
+    linear.value =
+        transformed.gradient.dot(velocity) + wrapAngle(row.yaw_rad - centre_rad - transformed.shift);
+    linear.variance = row.variance + transformed.omega;
     return linear;
 }
 

@@ -496,6 +496,18 @@ std::vector<Parameter> surfaceParameters() {
         number("fusion.lasting.gyro_walk_deg_per_sqrt_s", 0.0001, 100,
                "by which a turn summed up from the gyro errs",
                TERRAWALK_FIELD(fusion.lasting.gyro_walk_deg_per_sqrt_s)),
+        number("fusion.drift.climb_sigma_mps", 0.01, 100, "vertical velocity of the array",
+               TERRAWALK_FIELD(fusion.drift.climb_sigma_mps)),
+        number("fusion.drift.climb_correlation_s", 0.01, 1000, "time in which it changes",
+               TERRAWALK_FIELD(fusion.drift.climb_correlation_s)),
+        flag("fusion.drift.adapt", "the noise of each sensor follows its innovations",
+             TERRAWALK_FIELD(fusion.drift.adapt)),
+        number("fusion.drift.adapt_memory_s", 1, 100000, "in which older innovations fade",
+               TERRAWALK_FIELD(fusion.drift.adapt_memory_s)),
+        number("fusion.drift.least_factor", 0.01, 1, "least factor on the variance of a sensor",
+               TERRAWALK_FIELD(fusion.drift.least_factor)),
+        number("fusion.drift.greatest_factor", 1, 1000, "greatest factor on the variance of a sensor",
+               TERRAWALK_FIELD(fusion.drift.greatest_factor)),
         number("fusion.joint.knot_s", 0.1, 60, "between the knots of the track's correction",
                TERRAWALK_FIELD(fusion.joint.knot_s)),
         number("fusion.joint.heading_knot_s", 1, 600, "between the knots of the compass error",
@@ -556,7 +568,7 @@ std::vector<Parameter> surfaceParameters() {
 }
 
 // An option that is added without a parameter could be neither set nor reported.
-static_assert(sizeof(FusionOptions) == 1128, "add the new option to fusionParameters()");
+static_assert(sizeof(FusionOptions) == 1176, "add the new option to fusionParameters()");
 static_assert(sizeof(AukfOptions) == 168, "add the new option to aukfParameters()");
 static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
 static_assert(sizeof(SurfaceOptions) == 32, "add the new option to surfaceParameters()");

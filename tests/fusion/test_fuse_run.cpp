@@ -13,12 +13,18 @@
 namespace terrawalk {
 namespace {
 
-Result<FusedRun> fuse(const MadeRun& made, const FusionOptions& options = {}) {
+FusionOptions ukfOptions() {
+    FusionOptions options;
+    options.method = FusionMethod::Ukf;
+    return options;
+}
+
+Result<FusedRun> fuse(const MadeRun& made, const FusionOptions& options = ukfOptions()) {
     SilentProgress progress;
     return fuseRun(made.survey, made.run(), options, progress, {});
 }
 
-FusedRun fused(const MadeRun& made, const FusionOptions& options = {}) {
+FusedRun fused(const MadeRun& made, const FusionOptions& options = ukfOptions()) {
     auto result = fuse(made, options);
     if (!result) {
         ADD_FAILURE() << result.error().text();
@@ -28,13 +34,13 @@ FusedRun fused(const MadeRun& made, const FusionOptions& options = {}) {
 }
 
 FusionOptions rawOptions() {
-    FusionOptions options;
+    FusionOptions options = ukfOptions();
     options.method = FusionMethod::Raw;
     return options;
 }
 
 FusionOptions forwardOnly() {
-    FusionOptions options;
+    FusionOptions options = ukfOptions();
     options.smooth = false;
     return options;
 }
@@ -178,8 +184,7 @@ TEST(FuseRun, NeverLooksAtCheckMarks) {
 
 TEST(FuseRun, TiesAFixedPointRunToItsTargetOnlyWhereAsked) {
     for (const bool tie : {false, true}) {
-        FusionOptions options;
-        options.method = FusionMethod::Ukf;
+        FusionOptions options = ukfOptions();
         options.stands.tie_fixed_targets = tie;
         MadeRun made = makeRun();
         made.run().kind = RunKind::FixedPoint;
@@ -248,7 +253,7 @@ TEST(FuseRun, RejectsOutliersAndCountsThem) {
     EXPECT_LT(horizontalRmse(made, run), 1.2 * clean);
     EXPECT_LT(verticalRmse(made, run), 1.2 * clean_up);
 
-    FusionOptions trusting;
+    FusionOptions trusting = ukfOptions();
     trusting.robust.use = false;
     EXPECT_GT(horizontalRmse(made, fused(made, trusting)), 2.0 * clean);
 }
@@ -451,7 +456,7 @@ TEST(FuseRun, BarometricHeightsFollowTheLevelSurface) {
     made.survey.zero_point = LocalFrame(start).toGeodetic({0.0, -5000.0, 0.0});
     made.survey.zero_point.h_ell_m = start.h_ell_m;
     made.run().start.reset();
-    FusionOptions options;
+    FusionOptions options = ukfOptions();
     options.gnss.use_height = GnssHeightUse::Never;
     made.survey.marks.push_back({"FAR", made.survey.frame().toEnu(start), 0.005, 0.005, MarkRole::Control});
     made.run().start = "FAR";
@@ -676,7 +681,7 @@ TEST(FuseRun, TakesDopplerVelocity) {
 TEST(FuseRun, TheYawRowIsOffUnlessAskedFor) {
     const MadeRun made = makeRun();
     EXPECT_EQ(use(fused(made), "heading row"), nullptr);
-    FusionOptions options;
+    FusionOptions options = ukfOptions();
     options.yaw_row.use = true;
     const FusedRun run = fused(made, options);
     ASSERT_NE(use(run, "heading row"), nullptr);
@@ -689,7 +694,7 @@ TEST(FuseRun, TheMountOffsetOfTheYawRowUndoesATurnedArray) {
     MadeRun made = makeRun();
     made.erase(Channel::FlowForward);
     made.erase(Channel::AccelerationX);
-    FusionOptions options;
+    FusionOptions options = ukfOptions();
     options.yaw_row.use = true;
     const FusedRun straight = fused(made, options);
     // A quarter turn to the left: the heading falls by 90 degrees, the walk stays as it is.
@@ -712,7 +717,7 @@ TEST(FuseRun, TheMountOffsetOfTheYawRowUndoesATurnedArray) {
 
 TEST(FuseRun, EachSensorCanBeSwitchedOff) {
     const MadeRun made = makeRun({.fix = fix_code::kRtkFloat, .doppler = true});
-    FusionOptions options;
+    FusionOptions options = ukfOptions();
     options.gnss.use_position = false;
     options.gnss.use_velocity = false;
     options.gnss.use_height = GnssHeightUse::Never;
@@ -727,7 +732,7 @@ TEST(FuseRun, EachSensorCanBeSwitchedOff) {
 }
 
 TEST(FuseRun, GnssHeightFollowsTheOption) {
-    FusionOptions options;
+    FusionOptions options = ukfOptions();
     const MadeRun single = makeRun();
     EXPECT_EQ(rejected(fused(single), "GNSS height", "no RTK fix"), 300U);
     options.gnss.use_height = GnssHeightUse::Always;
@@ -741,7 +746,7 @@ TEST(FuseRun, RefusesALogThatTellsNoPosition) {
     MadeRun made = makeRun();
     for (const Channel c : {Channel::Latitude, Channel::Longitude, Channel::FlowForward}) made.erase(c);
     for (const FusionMethod method : {FusionMethod::Raw, FusionMethod::Ukf}) {
-        FusionOptions options;
+        FusionOptions options = ukfOptions();
         options.method = method;
         const auto result = fuse(made, options);
         ASSERT_FALSE(result);
@@ -755,7 +760,7 @@ TEST(FuseRun, StopsWhenAskedTo) {
     std::stop_source source;
     source.request_stop();
     SilentProgress progress;
-    const auto result = fuseRun(made.survey, made.run(), {}, progress, source.get_token());
+    const auto result = fuseRun(made.survey, made.run(), ukfOptions(), progress, source.get_token());
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().kind, ErrorKind::Cancelled);
 }
@@ -775,12 +780,26 @@ TEST(FuseRun, AFarRangeWhereNothingCameBackIsNoHeightOverTheMark) {
     EXPECT_NEAR(fused(made).trajectory.epochs[0].position_enu_m.z(), 1.2, 0.15);
 }
 
+TEST(FuseRun, RangesCutShortInHalfOfAStandLeaveTheTieWhole) {
+    MadeRun made = makeRun();
+    std::size_t stood = 0;
+    while (made.log().time_s[stood] <= FusionOptions{}.stands.start_s) ++stood;
+    stood -= stood % 2;
+    for (std::size_t i = 0; i < stood; i += 2) made.log().column(Channel::Range)[i] = 0.15;
+    if (made.log().time_s[stood] <= FusionOptions{}.stands.start_s) {
+        made.log().column(Channel::Range)[stood] = kMissing;
+    }
+    const FusedRun run = fused(made);
+    expectSound(run);
+    EXPECT_NEAR(run.trajectory.epochs[0].position_enu_m.z(), 1.2, 0.15);
+}
+
 // Simulated surveys with the slow GNSS error of 100 s. Mean squared error over variance, ideally 1; two
 // surveys hold few independent errors, so the bounds are wide. Believing each epoch anew must come out as the
 // lie that it is.
 TEST(FuseRun, OwnsUpToTimeCorrelatedErrors) {
     SilentProgress progress;
-    FusionOptions naive;
+    FusionOptions naive = ukfOptions();
     naive.gnss.correlation_s = 0.0;
     double honest_nees = 0.0;
     double naive_nees = 0.0;
@@ -808,7 +827,7 @@ TEST(FuseRun, OwnsUpToTimeCorrelatedErrors) {
             }
             return sum / static_cast<double>(walk.log.size());
         };
-        honest_nees += 0.5 * nees(FusionOptions{});
+        honest_nees += 0.5 * nees(ukfOptions());
         naive_nees += 0.5 * nees(naive);
     }
     EXPECT_GT(honest_nees, 0.1);
@@ -846,7 +865,7 @@ TEST(RawMode, AHeldPositionAgesAlikeAtAnyRate) {
         const auto at = static_cast<std::size_t>(std::lround(12.0 / interval_s));
         return std::sqrt(raw.trajectory.epochs[at].covariance(0, 0));
     };
-    const FusionOptions options;
+    const FusionOptions options = ukfOptions();
     const double expected = std::hypot(options.gnss.sigma_single_m, 2.0 * options.initial.walking_speed_mps);
     EXPECT_NEAR(sigmaAfterTwoSeconds(0.2), expected, 1e-9);
     EXPECT_NEAR(sigmaAfterTwoSeconds(0.02), expected, 1e-9);
