@@ -312,16 +312,18 @@ void survivesKills(bool exchange) {
     const double publish_us =
         std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count() / 10.0;
     std::set<std::string> seen;
-    constexpr int kRounds = 200;
-    for (int round = 0; round < kRounds; ++round) {
+    constexpr std::size_t kRounds = 200;
+    for (std::size_t round = 0; round < kRounds; ++round) {
         std::array<int, 2> started{};
         ASSERT_EQ(::pipe(started.data()), 0);
         const pid_t child = ::fork();
         ASSERT_GE(child, 0);
         if (child == 0) {
             if (!exchange && !forbidExchange()) ::_exit(77);
-            if (::write(started[1], "x", 1) != 1) ::_exit(1);
+            // Every other round is killed only after it has published once, however slow the machine.
+            const auto ready_at = static_cast<int>(round % 2);
             for (int i = 0;; ++i) {
+                if (i == ready_at && ::write(started[1], "x", 1) != 1) ::_exit(1);
                 const std::string generation = std::to_string(round) + "/" + std::to_string(i);
                 if (!publish(target, generation, 3 + (i % 3))) ::_exit(1);
             }
@@ -331,7 +333,7 @@ void survivesKills(bool exchange) {
         EXPECT_GE(::read(started[0], &ready, 1), 0);
         ::close(started[0]);
         // Spread over three publications; 37 and 200 have no common divisor.
-        ::usleep(static_cast<useconds_t>(3.0 * publish_us * (round * 37 % kRounds) / kRounds));
+        ::usleep(static_cast<useconds_t>(3.0 * publish_us * static_cast<double>(round * 37 % kRounds) / kRounds));
         ::kill(child, SIGKILL);
         const int status = statusOf(child);
         if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "no seccomp here";
@@ -344,7 +346,7 @@ void survivesKills(bool exchange) {
         if (::testing::Test::HasFailure()) FAIL() << "round " << round;
     }
     // The kills fell into runs that did publish.
-    EXPECT_GT(seen.size(), 20U);
+    EXPECT_GE(seen.size(), kRounds / 2);
     ASSERT_TRUE(publish(target, "last"));
     EXPECT_EQ(wholeGeneration(target), "last");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
