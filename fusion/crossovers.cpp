@@ -184,7 +184,8 @@ std::vector<Crossover> findCrossovers(std::span<const GroundSample> samples,
                     found[1] = true;
                 }
             }
-            if (!found[0] || !found[1]) continue;
+            // One stretch that lingers about the place has nothing to be compared with.
+            if (!found[0] || !found[1] || pair[0].first == pair[1].first) continue;
             const std::size_t n_a = pair[0].last - pair[0].first;
             const std::size_t n_b = pair[1].last - pair[1].first;
             if (std::min(n_a, n_b) < options.fewest_points) continue;

@@ -125,7 +125,7 @@ struct FlowOptions {
     bool bridge_dropouts = true;
     double bridge_after_s = 0.6;     ///< without a used reading [s]
     double bridge_longest_s = 10.0;  ///< since the last used reading; then the walk may be any other [s]
-    double bridge_sigma_mps = 0.2;   ///< of the stand-in, which errs in the same way for `bridge_memory_s`
+    double bridge_sigma_mps = 0.3;   ///< of the stand-in, which errs in the same way for `bridge_memory_s`
     double bridge_memory_s = 5.0;    ///< over which the mean is taken [s]
 };
 
@@ -194,14 +194,16 @@ struct LastingErrorOptions {
     double gnss_white_share_fixed = 0.5;  ///< the same for RTK fixed
     double heading_sigma_deg = 3.0;       ///< compass error that wanders
     double heading_correlation_s = 400.0;
-    double hard_iron_sigma_deg = 2.5;        ///< A sin yaw + B cos yaw, the same in all runs
-    double hard_iron_run_sigma_deg = 0.7;    ///< by which a run differs from that
-    double flow_scale_sigma = 0.1;           ///< constant in a run
-    double flow_axes_sigma = 0.05;           ///< half the difference of the scales of forward and left
-    double gyro_bias_sigma_dps = 2.0;        ///< constant in a run
-    double gyro_walk_deg_per_sqrt_s = 0.05;  ///< by which a turn summed up from the gyro errs
-    double acceleration_bias_sigma_mps2 = 0.15;  ///< each axis of the accelerometer
-    double acceleration_bias_correlation_s = 300.0;
+    double hard_iron_sigma_deg = 2.5;              ///< A sin yaw + B cos yaw, the same in all runs
+    double hard_iron_run_sigma_deg = 0.7;          ///< by which a run differs from that
+    double flow_scale_sigma = 0.1;                 ///< constant in a run
+    double flow_axes_sigma = 0.05;                 ///< half the difference of the scales of forward and left
+    double gyro_bias_sigma_dps = 2.0;              ///< constant in a run
+    double gyro_walk_deg_per_sqrt_s = 0.05;        ///< by which a turn summed up from the gyro errs
+    double acceleration_bias_sigma_mps2 = 0.15;    ///< each axis of the accelerometer, in the level axes with
+                                                   ///< what a wrong tilt lets in of gravity
+    double acceleration_bias_correlation_s = 1e5;  ///< of the vertical axis
+    double tilt_correlation_s = 300.0;             ///< of the level axes: the error of the tilt wanders
 };
 
 /// The filter with error states, first stage of `Terrawalk`. Its random walk of the horizontal velocity is
@@ -222,7 +224,7 @@ struct JointOptions {
     double gnss_knot_s = 4.0;
     double barometer_knot_s = 10.0;
     double acceleration_knot_s = 30.0;  ///< between the knots of the accelerometer's bias
-    int rounds = 5;  ///< Gauss-Newton rounds with crossovers
+    int rounds = 5;                     ///< Gauss-Newton rounds with crossovers
     bool use_crossovers = true;
     bool adapt_noise = true;  ///< noise factors by variance components
     CrossoverOptions crossovers;
@@ -233,11 +235,11 @@ struct JointOptions {
     double pair_uneven_m = 0.07;
     double pair_apart_per_m = 0.35;
     double pair_plan_share = 0.5;             ///< of the slope that turns errors of the plan into height
-    double pair_weight = 0.4;                 ///< neighbouring pairs share their points
+    double pair_weight = 0.2;                 ///< neighbouring pairs share their points
     double walk_mps_per_sqrt_s = 0.6;         ///< random walk of the horizontal velocity
     double ground_roughness_m = 0.05;         ///< of the ground below the walk about its level
     double ground_climb_m_per_sqrt_m = 0.06;  ///< by which that level wanders
-    double acceleration_noise_mps2 = 0.05;    ///< white noise of the accelerometer; 0: it is not used
+    double acceleration_noise_mps2 = 0.03;    ///< white noise of the accelerometer; 0: it is not used
     double blind_climb_m_per_sqrt_s = 0.27;   ///< the same of the array where no range was measured
 };
 

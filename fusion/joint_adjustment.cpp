@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "fusion/barometer.hpp"
+#include "fusion/position_bends.hpp"
 #include "fusion/sparse_least_squares.hpp"
-#include "fusion/vertical_acceleration.hpp"
 
 namespace terrawalk {
 
@@ -43,7 +43,8 @@ enum Group : std::size_t {
     kClimb,
     kRoughness,
     kBlindClimb,
-    kAcceleration,
+    kAccelerationH,
+    kAccelerationV,
     kAccelerationBias,
     kPair,
     kMarkPass,
@@ -72,7 +73,7 @@ std::vector<RowGroup> rowGroups(bool robust) {
     set(kBarometerDrift, "barometer drift", Loss::Square, 3.0, true, 0.1, 6.0);
     set(kGust, "barometer gusts", Loss::Square, 3.0, true, 0.1, 6.0);
     set(kFlow, "optical flow", Loss::Huber, 3.0, true, 0.3, 6.0);
-    set(kBridge, "optical flow bridged", Loss::Square, 2.0, true, 0.3, 3.0);
+    set(kBridge, "optical flow bridged", Loss::Square, 2.0, false);
     set(kCompass, "compass drift", Loss::Huber, 3.0, true, 0.2, 6.0);
     set(kGyro, "gyro", Loss::Huber, 3.0, true, 0.2, 20.0);
     set(kHeading, "compass noise", Loss::Cauchy, 3.0, true, 0.2, 10.0);
@@ -81,7 +82,8 @@ std::vector<RowGroup> rowGroups(bool robust) {
     groups[kClimb].by_median = true;
     set(kRoughness, "ground roughness", Loss::Huber, 2.0, true, 0.2, 6.0);
     set(kBlindClimb, "climb", Loss::Huber, 2.0, false);
-    set(kAcceleration, "accelerometer", Loss::Huber, 3.0, true, 0.2, 50.0);
+    set(kAccelerationH, "accelerometer, plan", Loss::Huber, 3.0, true, 0.2, 50.0);
+    set(kAccelerationV, "accelerometer, height", Loss::Huber, 3.0, true, 0.2, 50.0);
     set(kAccelerationBias, "accelerometer bias", Loss::Square, 3.0, false);
     set(kPair, "crossovers", Loss::Cauchy, 3.0, true, 0.9, 5.0);
     set(kMarkPass, "passes over marks", Loss::Cauchy, 3.0, true, 0.9, 5.0);
@@ -202,7 +204,7 @@ class RunModel {
     std::vector<double> base_doubt_rad2;  // variance of the turn before this epoch where the gyro was silent
     Chain drift, gust;                    // barometer
     Chain force_bias;                     // accelerometer, body axes
-    std::vector<HeightBend> bends;        // what the accelerometer says of the height about the knots
+    std::optional<LevelAcceleration> acceleration;
     std::vector<GnssSegment> segments;
     std::vector<GnssEpoch> gnss;
     Scalar iron_sin, iron_cos, scale, axes, gyro_bias;
@@ -332,11 +334,11 @@ class JointAdjuster {
 
     void prepareAcceleration(RunModel& run) const {
         const JointOptions& o = options_.joint;
-        if (!options_.accelerometer.use || o.acceleration_noise_mps2 <= 0.0 || o.knot_s < kStrideAverage_s) return;
-        std::vector<double> knots(run.correction.knots());
-        for (std::size_t k = 0; k < knots.size(); ++k) knots[k] = run.correction.time(k);
-        run.bends = heightBends(*run.log, run.start->attitudes, knots, o.knot_s);
-        for (const HeightBend& bend : run.bends) run.force_bias.cover(knots[bend.knot], o.acceleration_knot_s);
+        const bool fine = o.knot_s < kStrideAverage_s;  // the average would reach beyond the next knot
+        if (!options_.accelerometer.use || o.acceleration_noise_mps2 <= 0.0 || fine) return;
+        run.acceleration = levelAcceleration(*run.log, run.start->attitudes);
+        if (!run.acceleration) return;
+        for (const double t : run.log->time_s) run.force_bias.cover(t, o.acceleration_knot_s);
     }
 
     // Sums the gyro up to a heading; over its gaps the compass tells the turn.
@@ -576,7 +578,7 @@ class JointAdjuster {
             run.gust.place(unknowns_, 1);
             take(run.gust.knots());
         }
-        if (!run.bends.empty()) {
+        if (run.acceleration) {
             run.force_bias.place(unknowns_, 3);
             take(3 * run.force_bias.knots());
         }
@@ -838,19 +840,23 @@ class JointAdjuster {
                 const double f = run.flow_mps[i].x() / forward_scale;
                 const double l = run.flow_mps[i].y() / left_scale;
                 const Eigen::Vector2d v(c * f - s * l, s * f + c * l);
-                const Eigen::Vector2d turned(v.y(), -v.x());  // d v / d psi
-                residual += dt * v - (trackAt(run, to_s) - trackAt(run, from_s)).head<2>();
+                // What errors do is reckoned from the way of the track: the noise of a reading in its own
+                // coefficients would make the flow's scale come out too large.
+                const Eigen::Vector2d way = (trackAt(run, to_s) - trackAt(run, from_s)).head<2>();
+                const Eigen::Vector2d turned(way.y(), -way.x());  // d way / d psi
+                residual += dt * v - way;
                 const Chain::Place place = run.has_gyro ? run.turn_at[i] : run.psi_at[i];
                 if (covered_s == 0.0) first_knot = place.knot;
                 const std::size_t k = std::min<std::size_t>(place.knot - first_knot, 1);
-                by_knot[k] += dt * (1.0 - place.fraction) * turned;
-                by_knot[k + 1] += dt * place.fraction * turned;
-                by_sin += dt * std::sin(run.yaw_rad[i]) * turned;
-                by_cos += dt * std::cos(run.yaw_rad[i]) * turned;
-                const Eigen::Vector2d forward(c * f / forward_scale, s * f / forward_scale);
-                const Eigen::Vector2d left(-s * l / left_scale, c * l / left_scale);
-                by_scale -= dt * (forward + left);
-                by_axes -= dt * (forward - left);
+                by_knot[k] += (1.0 - place.fraction) * turned;
+                by_knot[k + 1] += place.fraction * turned;
+                by_sin += std::sin(run.yaw_rad[i]) * turned;
+                by_cos += std::cos(run.yaw_rad[i]) * turned;
+                const Eigen::Vector2d ahead(c, s);
+                const Eigen::Vector2d forward = ahead.dot(way) * ahead;
+                const Eigen::Vector2d left = way - forward;
+                by_scale -= forward / forward_scale + left / left_scale;
+                by_axes -= forward / forward_scale - left / left_scale;
                 covered_s += dt;
                 if (run.bridge_sigma_mps[i] > 0.0) {
                     bridged_s += dt;
@@ -1028,46 +1034,89 @@ class JointAdjuster {
         }
     }
 
-    // Bends of the height, averaged over a stride; what is linear between knots bends at them alone, and the
-    // average takes `b` of each bend to either side.
+    // Yaw at the even steps of the accelerations, linear between epochs.
+    std::vector<double> yawOfSteps(const RunModel& run) const {
+        const LevelAcceleration& series = *run.acceleration;
+        std::vector<double> yaw(series.size());
+        std::size_t i = 0;
+        for (std::size_t j = 0; j < series.size(); ++j) {
+            while (i + 2 < run.size() && run.time(i + 1) <= series.time(j)) ++i;
+            const double f =
+                std::clamp((series.time(j) - run.time(i)) / (run.time(i + 1) - run.time(i)), 0.0, 1.0);
+            const double here = trueYaw(run, i);
+            yaw[j] = here + f * wrapAngle(trueYaw(run, i + 1) - here);
+        }
+        return yaw;
+    }
+
+    // Bends of the track averaged over a stride; what is linear between knots bends at them alone, and the
+    // average takes the share `b` of each bend to either side.
     void addAcceleration(const RunModel& run, SparseLeastSquares& system) {
-        if (run.bends.empty()) return;
+        if (!run.acceleration) return;
         const JointOptions& o = options_.joint;
-        std::vector<double> up(run.size());
-        for (std::size_t i = 0; i < run.size(); ++i) up[i] = run.track_m[i].z();
-        const auto height = [&](std::size_t knot) {
-            return strideAverage(run.log->time_s, up, run.correction.time(knot));
-        };
+        std::vector<double> knots(run.correction.knots());
+        std::vector<Eigen::Vector3d> track_m(knots.size());
+        for (std::size_t k = 0; k < knots.size(); ++k) {
+            knots[k] = run.correction.time(k);
+            track_m[k] = strideAverage(run.log->time_s, run.track_m, knots[k]);
+        }
         const double b = kStrideAverage_s / (6.0 * o.knot_s);
         const std::array<double, 5> kernel{b, 1.0 - 4.0 * b, -2.0 + 6.0 * b, 1.0 - 4.0 * b, b};
-        for (const HeightBend& bend : run.bends) {
+        for (const PositionBend& bend : positionBends(*run.acceleration, yawOfSteps(run), knots, o.knot_s)) {
             const std::size_t k = bend.knot;
-            const double bent = height(k - 1) - 2.0 * height(k) + height(k + 1);
-            if (!std::isfinite(bent) || bend.filled_sigma_m > kBlindBend_m) continue;
-            row_.clear();
-            for (std::size_t j = 0; j < kernel.size(); ++j) {
-                // Beyond the ends the correction goes on as it is.
-                const std::size_t knot =
-                    std::clamp<std::size_t>(k + j, 2, run.correction.knots() + 1) - 2;
-                row_.add(run.correction.unknown(knot, 2), kernel[j]);
+            const Eigen::Vector3d bent_m = track_m[k - 1] - 2.0 * track_m[k] + track_m[k + 1];
+            if (!bent_m.allFinite() || bend.filled_sigma_m > kBlindBend_m) continue;
+            const Chain::Place at = run.force_bias.locate(knots[k]);
+            Eigen::Vector3d bias_mps2;
+            for (std::size_t part = 0; part < 3; ++part) {
+                bias_mps2[static_cast<Eigen::Index>(part)] = run.force_bias.value(at, part);
             }
-            const Chain::Place at = run.force_bias.locate(run.correction.time(k));
-            double biased = 0.0;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const double by = bend.by_bias_s2[static_cast<Eigen::Index>(axis)];
-                run.force_bias.addTo(row_, at, by, axis);
-                biased += by * run.force_bias.value(at, axis);
+            const Eigen::Vector3d residual_m = bend.bend_m - bend.by_bias_s2 * bias_mps2 - bent_m;
+            const double noise_m2 =
+                squared(o.acceleration_noise_mps2 * bend.sigma_per_noise_s2) + squared(bend.filled_sigma_m);
+            const double turned_m2 = bend.bend_m.head<2>().squaredNorm() * squared(kYawDoubt_rad);
+            for (std::size_t axis = run.has_heading ? 0 : 2; axis < 3; ++axis) {
+                const auto a = static_cast<Eigen::Index>(axis);
+                row_.clear();
+                for (std::size_t j = 0; j < kernel.size(); ++j) {
+                    // Beyond the ends the correction goes on as it is.
+                    const std::size_t knot = std::clamp<std::size_t>(k + j, 2, knots.size() + 1) - 2;
+                    row_.add(run.correction.unknown(knot, axis), kernel[j]);
+                }
+                for (std::size_t part = 0; part < 3; ++part) {
+                    run.force_bias.addTo(row_, at, bend.by_bias_s2(a, static_cast<Eigen::Index>(part)), part);
+                }
+                if (axis < 2) turnedBy(run, knots[k], axis == 0 ? bend.bend_m.y() : -bend.bend_m.x());
+                system.addRow(axis == 2 ? kAccelerationV : kAccelerationH, row_.all(), residual_m[a],
+                              std::sqrt(noise_m2 + (axis == 2 ? 0.0 : turned_m2)));
             }
-            system.addRow(kAcceleration, row_.all(), bend.bend_m - biased - bent,
-                          std::sqrt(squared(o.acceleration_noise_mps2 * bend.sigma_per_noise_s2) +
-                                    squared(bend.filled_sigma_m)));
         }
         for (std::size_t axis = 0; axis < 3; ++axis) {
+            // A tilt that is off lets gravity into the level axes, and the error of the tilt wanders.
             addGaussMarkov(run.force_bias, axis, options_.lasting.acceleration_bias_sigma_mps2,
-                           options_.lasting.acceleration_bias_correlation_s, kAccelerationBias, system);
+                           axis == 2 ? options_.lasting.acceleration_bias_correlation_s
+                                     : options_.lasting.tilt_correlation_s,
+                           kAccelerationBias, system);
         }
     }
-    static constexpr double kBlindBend_m = 0.5;  // of a sigma that tells nothing
+
+    // Adds to the row what errors of the heading at a time do to a reading: `change` for each radian.
+    void turnedBy(const RunModel& run, double time_s, double change) {
+        if (run.has_gyro) {
+            run.turn.addTo(row_, run.turn.locate(time_s), -change);
+            return;
+        }
+        run.psi.addTo(row_, run.psi.locate(time_s), -change);
+        const auto& times = run.log->time_s;
+        const auto next = std::lower_bound(times.begin(), times.end() - 1, time_s);
+        const double yaw = run.yaw_rad[static_cast<std::size_t>(next - times.begin())];
+        row_.add(run.iron_sin.unknown, -change * std::sin(yaw));
+        row_.add(run.iron_cos.unknown, -change * std::cos(yaw));
+        row_.add(iron_sin_.unknown, -change * std::sin(yaw));
+        row_.add(iron_cos_.unknown, -change * std::cos(yaw));
+    }
+    static constexpr double kBlindBend_m = 0.5;            // of a sigma that tells nothing
+    static constexpr double kYawDoubt_rad = radians(0.5);  // by which the yaw errs within a bend
 
     // ---- crossovers
 
@@ -1188,7 +1237,7 @@ class JointAdjuster {
                 run.drift.take(solution);
                 run.gust.take(solution);
             }
-            if (!run.bends.empty()) run.force_bias.take(solution);
+            if (run.acceleration) run.force_bias.take(solution);
             if (run.has_heading) {
                 run.psi.take(solution);
                 if (run.has_gyro) run.turn.take(solution);
@@ -1310,7 +1359,7 @@ class JointAdjuster {
 
     // What the covariance leaves out in plan (linear models, crossovers that share points), from simulated
     // surveys at three levels of faults.
-    static constexpr double kPlanInflation = 1.25;
+    static constexpr double kPlanInflation = 1.0;
 
     const Survey& survey_;
     LocalFrame frame_;

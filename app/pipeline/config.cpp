@@ -145,7 +145,8 @@ std::vector<Parameter> fusionParameters() {
     return {
         choice<FusionMethod>(
             "fusion.method", named(kFusionMethodNames),
-            "raw: sensors as they are; ukf: 9-state unscented Kalman filter with gate and smoother; aukf: the "
+            "raw: sensors as they are; ukf: 9-state unscented Kalman filter with gate and smoother; aukf: "
+            "the "
             "method of paper 000 as it is; terrawalk: filter with error states, then one adjustment of all "
             "runs with their crossovers",
             TERRAWALK_FIELD(fusion.method)),
@@ -496,6 +497,15 @@ std::vector<Parameter> surfaceParameters() {
         number("fusion.lasting.gyro_walk_deg_per_sqrt_s", 0.0001, 100,
                "by which a turn summed up from the gyro errs",
                TERRAWALK_FIELD(fusion.lasting.gyro_walk_deg_per_sqrt_s)),
+        number("fusion.lasting.acceleration_bias_sigma_mps2", 1e-6, 10,
+               "bias of each axis of the accelerometer",
+               TERRAWALK_FIELD(fusion.lasting.acceleration_bias_sigma_mps2)),
+        number("fusion.lasting.acceleration_bias_correlation_s", 1, 1e6,
+               "time in which that of the vertical axis wanders",
+               TERRAWALK_FIELD(fusion.lasting.acceleration_bias_correlation_s)),
+        number("fusion.lasting.tilt_correlation_s", 1, 1e6,
+               "time in which the error of the tilt wanders, and with it that of the level axes",
+               TERRAWALK_FIELD(fusion.lasting.tilt_correlation_s)),
         number("fusion.drift.climb_sigma_mps", 0.01, 100, "vertical velocity of the array",
                TERRAWALK_FIELD(fusion.drift.climb_sigma_mps)),
         number("fusion.drift.climb_correlation_s", 0.01, 1000, "time in which it changes",
@@ -549,27 +559,21 @@ std::vector<Parameter> surfaceParameters() {
         number("fusion.joint.pair_apart_per_m", 0, 10,
                "added to that, times the squared distance of the passes",
                TERRAWALK_FIELD(fusion.joint.pair_apart_per_m)),
-        number("fusion.joint.pair_plan_share", 0, 1,
-               "of the slope that turns errors of the plan into height",
+        number("fusion.joint.pair_plan_share", 0, 1, "of the slope that turns errors of the plan into height",
                TERRAWALK_FIELD(fusion.joint.pair_plan_share)),
-        number("fusion.joint.acceleration_noise_mps2", 0, 10,
-               "white noise of the accelerometer, which tells how the height bends; 0: it does not",
-               TERRAWALK_FIELD(fusion.joint.acceleration_noise_mps2)),
-        number("fusion.joint.acceleration_knot_s", 1, 600, "between the knots of the accelerometer's bias",
-               TERRAWALK_FIELD(fusion.joint.acceleration_knot_s)),
-        number("fusion.lasting.acceleration_bias_sigma_mps2", 1e-6, 10, "bias of each axis of the accelerometer",
-               TERRAWALK_FIELD(fusion.lasting.acceleration_bias_sigma_mps2)),
-        number("fusion.lasting.acceleration_bias_correlation_s", 1, 1e6, "time in which that bias wanders",
-               TERRAWALK_FIELD(fusion.lasting.acceleration_bias_correlation_s)),
         number("fusion.joint.pair_weight", 0.01, 1, "neighbouring crossovers share points",
                TERRAWALK_FIELD(fusion.joint.pair_weight)),
         number("fusion.joint.walk_mps_per_sqrt_s", 0.01, 100, "random walk of the horizontal velocity",
                TERRAWALK_FIELD(fusion.joint.walk_mps_per_sqrt_s)),
         number("fusion.joint.ground_roughness_m", 0.001, 10, "of the ground below the walk about its level",
                TERRAWALK_FIELD(fusion.joint.ground_roughness_m)),
-        number("fusion.joint.ground_climb_m_per_sqrt_m", 0.001, 10,
-               "by which that level wanders",
+        number("fusion.joint.ground_climb_m_per_sqrt_m", 0.001, 10, "by which that level wanders",
                TERRAWALK_FIELD(fusion.joint.ground_climb_m_per_sqrt_m)),
+        number("fusion.joint.acceleration_noise_mps2", 0, 10,
+               "white noise of the accelerometer, which tells how the height bends; 0: it does not",
+               TERRAWALK_FIELD(fusion.joint.acceleration_noise_mps2)),
+        number("fusion.joint.acceleration_knot_s", 1, 600, "between the knots of the accelerometer's bias",
+               TERRAWALK_FIELD(fusion.joint.acceleration_knot_s)),
         number("fusion.joint.blind_climb_m_per_sqrt_s", 0.001, 10,
                "by which the array climbs where no range was measured",
                TERRAWALK_FIELD(fusion.joint.blind_climb_m_per_sqrt_s)),
@@ -577,7 +581,7 @@ std::vector<Parameter> surfaceParameters() {
 }
 
 // An option that is added without a parameter could be neither set nor reported.
-static_assert(sizeof(FusionOptions) == 1208, "add the new option to fusionParameters()");
+static_assert(sizeof(FusionOptions) == 1216, "add the new option to fusionParameters()");
 static_assert(sizeof(AukfOptions) == 168, "add the new option to aukfParameters()");
 static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
 static_assert(sizeof(SurfaceOptions) == 32, "add the new option to surfaceParameters()");

@@ -1,6 +1,7 @@
-#include "fusion/vertical_acceleration.hpp"
+#include "fusion/position_bends.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,16 +14,6 @@ namespace terrawalk {
 
 namespace {
 
-/// Vertical acceleration at even steps of time.
-struct Series {
-    double from_s = 0.0;
-    double step_s = 0.0;
-    std::vector<double> up_mps2;                ///< gravity removed; NaN where there was no record
-    std::vector<Eigen::Vector3d> up_from_body;  ///< row of the rotation
-    std::vector<double> filled_variance;        ///< of what was interpolated; 0 where measured
-    std::size_t size() const { return up_mps2.size(); }
-};
-
 double usualStep(const std::vector<double>& times_s) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < times_s.size(); ++i) steps.push_back(times_s[i] - times_s[i - 1]);
@@ -31,32 +22,12 @@ double usualStep(const std::vector<double>& times_s) {
     return *middle;
 }
 
-std::optional<Series> measuredSeries(const ArrayLog& log, std::span<const EpochAttitude> attitudes) {
-    if (!log.has(Channel::AccelerationX) || !log.has(Channel::AccelerationY) ||
-        !log.has(Channel::AccelerationZ) || log.size() < 3) {
-        return std::nullopt;
-    }
-    Series series;
-    series.from_s = log.time_s.front();
-    series.step_s = usualStep(log.time_s);
-    constexpr double kMostSteps = 1e8;
-    const double steps = (log.time_s.back() - series.from_s) / series.step_s;
-    if (!(steps < kMostSteps)) return std::nullopt;
-    const std::size_t n = static_cast<std::size_t>(std::lround(steps)) + 1;
-    series.up_mps2.assign(n, std::numeric_limits<double>::quiet_NaN());
-    series.up_from_body.assign(n, Eigen::Vector3d::UnitZ());
-    for (std::size_t i = 0; i < log.size(); ++i) {
-        const Eigen::Vector3d force(log.value(Channel::AccelerationX, i),
-                                    log.value(Channel::AccelerationY, i),
-                                    log.value(Channel::AccelerationZ, i));
-        if (!force.allFinite()) continue;
-        const auto j =
-            static_cast<std::size_t>(std::lround((log.time_s[i] - series.from_s) / series.step_s));
-        const Eigen::Vector3d up = rotationEnuFromBody(attitudes[i].attitude).row(2).transpose();
-        series.up_from_body[j] = up;
-        series.up_mps2[j] = up.dot(force) - kStandardGravity_mps2;
-    }
-    return series;
+/// One component of a vector at each step; NaN where there was no record.
+std::vector<double> component(const std::vector<Eigen::Vector3d>& values, Eigen::Index axis) {
+    std::vector<double> result;
+    result.reserve(values.size());
+    for (const Eigen::Vector3d& v : values) result.push_back(v[axis]);
+    return result;
 }
 
 /// Interpolates missing values from those around them, by the autocovariance of the series.
@@ -128,18 +99,23 @@ class WienerInterpolation {
     std::array<double, 2 * kSide + 1> covariance_{};
 };
 
-void fillGaps(Series& series) {
-    const WienerInterpolation interpolation(series.up_mps2);
-    std::vector<double> filled = series.up_mps2;
-    series.filled_variance.assign(series.size(), 0.0);
-    for (std::size_t i = 0; i < series.size(); ++i) {
-        if (!std::isnan(series.up_mps2[i])) continue;
-        const auto [value, variance] = interpolation.at(i);
-        filled[i] = value;
-        series.filled_variance[i] = variance;
-        if (i > 0) series.up_from_body[i] = series.up_from_body[i - 1];
+void fillGaps(LevelAcceleration& series) {
+    series.filled_variance.assign(series.size(), Eigen::Vector3d::Zero());
+    std::vector<bool> missing(series.size());
+    for (std::size_t i = 0; i < series.size(); ++i) missing[i] = !series.level_mps2[i].allFinite();
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        const std::vector<double> measured = component(series.level_mps2, axis);
+        const WienerInterpolation interpolation(measured);
+        for (std::size_t i = 0; i < series.size(); ++i) {
+            if (!missing[i]) continue;
+            const auto [value, variance] = interpolation.at(i);
+            series.level_mps2[i][axis] = value;
+            series.filled_variance[i][axis] = variance;
+        }
     }
-    series.up_mps2 = std::move(filled);
+    for (std::size_t i = 1; i < series.size(); ++i) {
+        if (missing[i]) series.level_from_body[i] = series.level_from_body[i - 1];
+    }
 }
 
 /// Second difference with step `step_s` of a function and an average of a stride, as weights of the
@@ -157,34 +133,67 @@ double bendKernel_s(double t_s, double step_s) {
     return sum / (kStrideAverage_s * kStrideAverage_s);
 }
 
-std::optional<HeightBend> bendAt(const Series& series, double time_s, double step_s) {
+std::optional<PositionBend> bendAt(const LevelAcceleration& series, std::span<const double> yaw_rad,
+                                   double time_s, double step_s) {
     const double reach_s = step_s + kStrideAverage_s;
     const double first = std::ceil((time_s - reach_s - series.from_s) / series.step_s);
     const double last = std::floor((time_s + reach_s - series.from_s) / series.step_s);
     if (first < 0.0 || last >= static_cast<double>(series.size())) return std::nullopt;
-    HeightBend bend;
-    double filled = 0.0;
+    PositionBend bend;
+    Eigen::Vector3d filled = Eigen::Vector3d::Zero();
     for (auto j = static_cast<std::size_t>(first); j <= static_cast<std::size_t>(last); ++j) {
-        const double t = series.from_s + static_cast<double>(j) * series.step_s - time_s;
-        const double weight = bendKernel_s(t, step_s) * series.step_s;
-        bend.bend_m += weight * series.up_mps2[j];
-        bend.by_bias_s2 += weight * series.up_from_body[j];
+        const double weight = bendKernel_s(series.time(j) - time_s, step_s) * series.step_s;
+        Eigen::Matrix3d enu_from_level = Eigen::Matrix3d::Identity();
+        enu_from_level.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(yaw_rad[j]).toRotationMatrix();
+        bend.bend_m += weight * enu_from_level * series.level_mps2[j];
+        bend.by_bias_s2 += weight * enu_from_level * series.level_from_body[j];
         filled += weight * weight * series.filled_variance[j];
     }
     // Neighbouring bends share records; this is the white noise of bends that is as loud at low frequencies.
     bend.sigma_per_noise_s2 = std::sqrt(series.step_s * step_s * step_s * step_s);
-    bend.filled_sigma_m = std::sqrt(filled);
+    bend.filled_sigma_m = std::sqrt(filled.maxCoeff());
     return bend;
 }
 
 }  // namespace
 
-std::vector<HeightBend> heightBends(const ArrayLog& log, std::span<const EpochAttitude> attitudes,
-                                    std::span<const double> knot_times_s, double step_s) {
-    std::vector<HeightBend> bends;
-    auto series = measuredSeries(log, attitudes);
-    if (!series) return bends;
-    fillGaps(*series);
+std::optional<LevelAcceleration> levelAcceleration(const ArrayLog& log,
+                                                   std::span<const EpochAttitude> attitudes) {
+    if (!log.has(Channel::AccelerationX) || !log.has(Channel::AccelerationY) ||
+        !log.has(Channel::AccelerationZ) || log.size() < 3) {
+        return std::nullopt;
+    }
+    LevelAcceleration series;
+    series.from_s = log.time_s.front();
+    series.step_s = usualStep(log.time_s);
+    constexpr double kMostSteps = 1e7;
+    const double steps = (log.time_s.back() - series.from_s) / series.step_s;
+    if (!(steps < kMostSteps)) return std::nullopt;
+    const std::size_t n = static_cast<std::size_t>(std::lround(steps)) + 1;
+    series.level_mps2.assign(n, Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+    series.level_from_body.assign(n, Eigen::Matrix3d::Identity());
+    bool any = false;
+    for (std::size_t i = 0; i < log.size(); ++i) {
+        const Eigen::Vector3d force(log.value(Channel::AccelerationX, i),
+                                    log.value(Channel::AccelerationY, i),
+                                    log.value(Channel::AccelerationZ, i));
+        if (!force.allFinite()) continue;
+        any = true;
+        const auto j = static_cast<std::size_t>(std::lround((log.time_s[i] - series.from_s) / series.step_s));
+        Attitude tilt = attitudes[i].attitude;
+        tilt.yaw_rad = 0.0;
+        series.level_from_body[j] = rotationEnuFromBody(tilt);
+        series.level_mps2[j] =
+            series.level_from_body[j] * force - kStandardGravity_mps2 * Eigen::Vector3d::UnitZ();
+    }
+    if (!any) return std::nullopt;
+    fillGaps(series);
+    return series;
+}
+
+std::vector<PositionBend> positionBends(const LevelAcceleration& series, std::span<const double> yaw_rad,
+                                        std::span<const double> knot_times_s, double step_s) {
+    std::vector<PositionBend> bends;
     constexpr double kSlack = 1e-6;
     const auto stepped = [&](double from_s, double to_s) {
         return std::abs(to_s - from_s - step_s) < kSlack * step_s;
@@ -192,7 +201,7 @@ std::vector<HeightBend> heightBends(const ArrayLog& log, std::span<const EpochAt
     for (std::size_t k = 1; k + 1 < knot_times_s.size(); ++k) {
         if (!stepped(knot_times_s[k - 1], knot_times_s[k])) continue;
         if (!stepped(knot_times_s[k], knot_times_s[k + 1])) continue;
-        auto bend = bendAt(*series, knot_times_s[k], step_s);
+        auto bend = bendAt(series, yaw_rad, knot_times_s[k], step_s);
         if (!bend) continue;
         bend->knot = k;
         bends.push_back(*bend);
@@ -200,16 +209,18 @@ std::vector<HeightBend> heightBends(const ArrayLog& log, std::span<const EpochAt
     return bends;
 }
 
-double strideAverage(std::span<const double> times_s, std::span<const double> values, double time_s) {
-    double sum = 0.0;
+Eigen::Vector3d strideAverage(std::span<const double> times_s, std::span<const Eigen::Vector3d> positions,
+                              double time_s) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double weights = 0.0;
     for (auto it = std::upper_bound(times_s.begin(), times_s.end(), time_s - kStrideAverage_s);
          it != times_s.end() && *it < time_s + kStrideAverage_s; ++it) {
         const double weight = kStrideAverage_s - std::abs(*it - time_s);
-        sum += weight * values[static_cast<std::size_t>(it - times_s.begin())];
+        sum += weight * positions[static_cast<std::size_t>(it - times_s.begin())];
         weights += weight;
     }
-    return weights > 0.0 ? sum / weights : std::numeric_limits<double>::quiet_NaN();
+    if (weights == 0.0) return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    return sum / weights;
 }
 
 }  // namespace terrawalk
