@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stop_token>
 #include <vector>
 
 #include "tests/support/random_numbers.hpp"
@@ -174,6 +175,16 @@ TEST(SparseLeastSquares, SaysWhenTheRowsDoNotDetermineAnUnknown) {
     SparseLeastSquares not_finite(1, {group(Loss::Square, 1.0)});
     not_finite.addRow(0, {{0, 1.0}}, std::numeric_limits<double>::quiet_NaN(), 1.0);
     EXPECT_FALSE(not_finite.solve());
+}
+
+TEST(SparseLeastSquares, AStopRequestLeavesNoNumbers) {
+    std::stop_source source;
+    SparseLeastSquares system(1, {group(Loss::Square, 1.0)}, source.get_token());
+    system.addRow(0, {{0, 1.0}}, 1.0, 1.0);
+    ASSERT_TRUE(system.solve());
+    source.request_stop();
+    EXPECT_TRUE(std::isnan(system.covariance(0, 0)));
+    EXPECT_FALSE(system.solve());
 }
 
 TEST(SparseLeastSquares, AnOrderTakenOverChangesNoResult) {
