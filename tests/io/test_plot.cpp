@@ -189,9 +189,9 @@ TEST(Plot, WholeNumbersHaveNoHalves) {
     const auto labels = [&](bool whole) {
         return labelsOf(Drawing(one({.x = {.whole_numbers = whole, .range = range}, .series = series})));
     };
-    EXPECT_THAT(labels(false), testing::Contains("101.5"));
+    EXPECT_THAT(labels(false), testing::Contains("101.4"));
     EXPECT_THAT(labels(true), testing::Contains("101"));
-    EXPECT_THAT(labels(true), testing::Not(testing::Contains("101.5")));
+    EXPECT_THAT(labels(true), testing::Not(testing::Contains("101.4")));
 }
 
 TEST(Plot, EqualScalesMakeASquareOfASquare) {
