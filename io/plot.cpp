@@ -143,8 +143,8 @@ std::vector<Tick> axisTicks(const Scale& scale, const PlotAxis& axis, int most) 
     }
     const double low = scale.logarithmic ? std::pow(10.0, scale.low) : scale.low;
     const double high = scale.logarithmic ? std::pow(10.0, scale.high) : scale.high;
-    // Over less than half a decade a logarithmic axis is nearly an even one.
-    if (scale.logarithmic && scale.high - scale.low >= 0.5) return ticksOfDecades(low, high);
+    // Over little more than half a decade 1, 2 and 5 are too few, and even steps still lie apart.
+    if (scale.logarithmic && scale.high - scale.low >= 0.75) return ticksOfDecades(low, high);
     const Ticks nice = niceTicks(low, high, most);
     const bool large = std::max(std::abs(low), std::abs(high)) >= 1e5;
     for (const double value : nice.values) {
