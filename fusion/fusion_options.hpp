@@ -200,6 +200,8 @@ struct LastingErrorOptions {
     double flow_axes_sigma = 0.05;           ///< half the difference of the scales of forward and left
     double gyro_bias_sigma_dps = 2.0;        ///< constant in a run
     double gyro_walk_deg_per_sqrt_s = 0.05;  ///< by which a turn summed up from the gyro errs
+    double acceleration_bias_sigma_mps2 = 0.15;  ///< each axis of the accelerometer
+    double acceleration_bias_correlation_s = 300.0;
 };
 
 /// The filter with error states, first stage of `Terrawalk`. Its random walk of the horizontal velocity is
@@ -219,6 +221,7 @@ struct JointOptions {
     double heading_knot_s = 4.0;
     double gnss_knot_s = 4.0;
     double barometer_knot_s = 10.0;
+    double acceleration_knot_s = 30.0;  ///< between the knots of the accelerometer's bias
     int rounds = 5;  ///< Gauss-Newton rounds with crossovers
     bool use_crossovers = true;
     bool adapt_noise = true;  ///< noise factors by variance components
@@ -234,6 +237,7 @@ struct JointOptions {
     double walk_mps_per_sqrt_s = 0.6;         ///< random walk of the horizontal velocity
     double ground_roughness_m = 0.05;         ///< of the ground below the walk about its level
     double ground_climb_m_per_sqrt_m = 0.06;  ///< by which that level wanders
+    double acceleration_noise_mps2 = 0.05;    ///< white noise of the accelerometer; 0: it is not used
     double blind_climb_m_per_sqrt_s = 0.27;   ///< the same of the array where no range was measured
 };
 

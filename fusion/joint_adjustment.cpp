@@ -11,6 +11,7 @@
 
 #include "fusion/barometer.hpp"
 #include "fusion/sparse_least_squares.hpp"
+#include "fusion/vertical_acceleration.hpp"
 
 namespace terrawalk {
 
@@ -42,6 +43,8 @@ enum Group : std::size_t {
     kClimb,
     kRoughness,
     kBlindClimb,
+    kAcceleration,
+    kAccelerationBias,
     kPair,
     kMarkPass,
     kGroupCount,
@@ -78,6 +81,8 @@ std::vector<RowGroup> rowGroups(bool robust) {
     groups[kClimb].by_median = true;
     set(kRoughness, "ground roughness", Loss::Huber, 2.0, true, 0.2, 6.0);
     set(kBlindClimb, "climb", Loss::Huber, 2.0, false);
+    set(kAcceleration, "accelerometer", Loss::Huber, 3.0, true, 0.2, 50.0);
+    set(kAccelerationBias, "accelerometer bias", Loss::Square, 3.0, false);
     set(kPair, "crossovers", Loss::Cauchy, 3.0, true, 0.9, 5.0);
     set(kMarkPass, "passes over marks", Loss::Cauchy, 3.0, true, 0.9, 5.0);
     return groups;
@@ -196,6 +201,8 @@ class RunModel {
     std::vector<double> base_yaw_rad;     // what `turn` corrects: summed gyro, continuous
     std::vector<double> base_doubt_rad2;  // variance of the turn before this epoch where the gyro was silent
     Chain drift, gust;                    // barometer
+    Chain force_bias;                     // accelerometer, body axes
+    std::vector<HeightBend> bends;        // what the accelerometer says of the height about the knots
     std::vector<GnssSegment> segments;
     std::vector<GnssEpoch> gnss;
     Scalar iron_sin, iron_cos, scale, axes, gyro_bias;
@@ -317,9 +324,19 @@ class JointAdjuster {
             }
         }
         if (run.has_heading) prepareTurn(run);
+        prepareAcceleration(run);
         run.above_ground_m = withoutSpikes(run);
         prepareFlow(run);
         return run;
+    }
+
+    void prepareAcceleration(RunModel& run) const {
+        const JointOptions& o = options_.joint;
+        if (!options_.accelerometer.use || o.acceleration_noise_mps2 <= 0.0 || o.knot_s < kStrideAverage_s) return;
+        std::vector<double> knots(run.correction.knots());
+        for (std::size_t k = 0; k < knots.size(); ++k) knots[k] = run.correction.time(k);
+        run.bends = heightBends(*run.log, run.start->attitudes, knots, o.knot_s);
+        for (const HeightBend& bend : run.bends) run.force_bias.cover(knots[bend.knot], o.acceleration_knot_s);
     }
 
     // Sums the gyro up to a heading; over its gaps the compass tells the turn.
@@ -559,6 +576,10 @@ class JointAdjuster {
             run.gust.place(unknowns_, 1);
             take(run.gust.knots());
         }
+        if (!run.bends.empty()) {
+            run.force_bias.place(unknowns_, 3);
+            take(3 * run.force_bias.knots());
+        }
         if (run.has_heading) {
             run.psi.place(unknowns_, 1);
             take(run.psi.knots());
@@ -591,6 +612,7 @@ class JointAdjuster {
             addHeading(run, system);
             addWalk(run, system);
             addClimb(run, system);
+            addAcceleration(run, system);
         }
         if (with_pairs) addPairs(system);
     }
@@ -1006,6 +1028,47 @@ class JointAdjuster {
         }
     }
 
+    // Bends of the height, averaged over a stride; what is linear between knots bends at them alone, and the
+    // average takes `b` of each bend to either side.
+    void addAcceleration(const RunModel& run, SparseLeastSquares& system) {
+        if (run.bends.empty()) return;
+        const JointOptions& o = options_.joint;
+        std::vector<double> up(run.size());
+        for (std::size_t i = 0; i < run.size(); ++i) up[i] = run.track_m[i].z();
+        const auto height = [&](std::size_t knot) {
+            return strideAverage(run.log->time_s, up, run.correction.time(knot));
+        };
+        const double b = kStrideAverage_s / (6.0 * o.knot_s);
+        const std::array<double, 5> kernel{b, 1.0 - 4.0 * b, -2.0 + 6.0 * b, 1.0 - 4.0 * b, b};
+        for (const HeightBend& bend : run.bends) {
+            const std::size_t k = bend.knot;
+            const double bent = height(k - 1) - 2.0 * height(k) + height(k + 1);
+            if (!std::isfinite(bent) || bend.filled_sigma_m > kBlindBend_m) continue;
+            row_.clear();
+            for (std::size_t j = 0; j < kernel.size(); ++j) {
+                // Beyond the ends the correction goes on as it is.
+                const std::size_t knot =
+                    std::clamp<std::size_t>(k + j, 2, run.correction.knots() + 1) - 2;
+                row_.add(run.correction.unknown(knot, 2), kernel[j]);
+            }
+            const Chain::Place at = run.force_bias.locate(run.correction.time(k));
+            double biased = 0.0;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double by = bend.by_bias_s2[static_cast<Eigen::Index>(axis)];
+                run.force_bias.addTo(row_, at, by, axis);
+                biased += by * run.force_bias.value(at, axis);
+            }
+            system.addRow(kAcceleration, row_.all(), bend.bend_m - biased - bent,
+                          std::sqrt(squared(o.acceleration_noise_mps2 * bend.sigma_per_noise_s2) +
+                                    squared(bend.filled_sigma_m)));
+        }
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            addGaussMarkov(run.force_bias, axis, options_.lasting.acceleration_bias_sigma_mps2,
+                           options_.lasting.acceleration_bias_correlation_s, kAccelerationBias, system);
+        }
+    }
+    static constexpr double kBlindBend_m = 0.5;  // of a sigma that tells nothing
+
     // ---- crossovers
 
     std::vector<GroundSample> groundSamples() const {
@@ -1125,6 +1188,7 @@ class JointAdjuster {
                 run.drift.take(solution);
                 run.gust.take(solution);
             }
+            if (!run.bends.empty()) run.force_bias.take(solution);
             if (run.has_heading) {
                 run.psi.take(solution);
                 if (run.has_gyro) run.turn.take(solution);

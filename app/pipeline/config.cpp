@@ -552,6 +552,15 @@ std::vector<Parameter> surfaceParameters() {
         number("fusion.joint.pair_plan_share", 0, 1,
                "of the slope that turns errors of the plan into height",
                TERRAWALK_FIELD(fusion.joint.pair_plan_share)),
+        number("fusion.joint.acceleration_noise_mps2", 0, 10,
+               "white noise of the accelerometer, which tells how the height bends; 0: it does not",
+               TERRAWALK_FIELD(fusion.joint.acceleration_noise_mps2)),
+        number("fusion.joint.acceleration_knot_s", 1, 600, "between the knots of the accelerometer's bias",
+               TERRAWALK_FIELD(fusion.joint.acceleration_knot_s)),
+        number("fusion.lasting.acceleration_bias_sigma_mps2", 1e-6, 10, "bias of each axis of the accelerometer",
+               TERRAWALK_FIELD(fusion.lasting.acceleration_bias_sigma_mps2)),
+        number("fusion.lasting.acceleration_bias_correlation_s", 1, 1e6, "time in which that bias wanders",
+               TERRAWALK_FIELD(fusion.lasting.acceleration_bias_correlation_s)),
         number("fusion.joint.pair_weight", 0.01, 1, "neighbouring crossovers share points",
                TERRAWALK_FIELD(fusion.joint.pair_weight)),
         number("fusion.joint.walk_mps_per_sqrt_s", 0.01, 100, "random walk of the horizontal velocity",
@@ -568,7 +577,7 @@ std::vector<Parameter> surfaceParameters() {
 }
 
 // An option that is added without a parameter could be neither set nor reported.
-static_assert(sizeof(FusionOptions) == 1176, "add the new option to fusionParameters()");
+static_assert(sizeof(FusionOptions) == 1208, "add the new option to fusionParameters()");
 static_assert(sizeof(AukfOptions) == 168, "add the new option to aukfParameters()");
 static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
 static_assert(sizeof(SurfaceOptions) == 32, "add the new option to surfaceParameters()");
