@@ -161,7 +161,8 @@ SimulatedSurvey longWalk() {
     options.area_east_m = 20;
     options.area_north_m = 20;
     options.fixed_point_runs = 0;
-    options.area_epochs = 12000;  // 40 minutes
+    options.sample_interval_s = 0.5;
+    options.area_epochs = 4800;  // 40 minutes
     options.control_stops = 0;
     options.check_points = 12;
     SilentProgress silent;
@@ -175,7 +176,7 @@ void silence(Survey& survey, const Channels& channels) {
     for (const Channel channel : channels) {
         std::vector<double>& column = log.column(channel);
         if (column.empty()) continue;
-        std::fill(column.begin() + 1500, column.begin() + 10500, kMissing);
+        std::fill(column.begin() + 600, column.begin() + 4200, kMissing);
     }
 }
 
