@@ -110,9 +110,12 @@ std::optional<Eigen::VectorXd> SparseLeastSquares::solve() {
 
 double SparseLeastSquares::covariance(std::size_t i, std::size_t j) {
     if (!inverse_) {
-        auto inverse = factor_->selectedInverse(stop_);
-        if (!inverse) return std::numeric_limits<double>::quiet_NaN();
-        inverse_ = std::move(*inverse);
+        if (!stopped_) {
+            auto inverse = factor_->selectedInverse(stop_);
+            stopped_ = !inverse;
+            if (inverse) inverse_ = std::move(*inverse);
+        }
+        if (stopped_) return std::numeric_limits<double>::quiet_NaN();
     }
     return inverse_->at(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
 }

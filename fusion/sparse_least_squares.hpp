@@ -111,6 +111,7 @@ class SparseLeastSquares {
     std::vector<std::pair<std::size_t, std::size_t>> wanted_;
     std::optional<SparseCholesky> factor_;
     std::optional<SelectedInverse> inverse_;
+    bool stopped_ = false;  // before there was an inverse; thousands of covariances must not try again
 };
 
 /// Expected weight (r / sigma)^2 of a standard normal r under a loss; what weighted squares are divided by.
