@@ -58,6 +58,7 @@ Result<FusedSurvey> adjusted(const Survey& survey, std::vector<RunFusion> runs, 
         fused.runs.push_back(std::move(run.fused));
     }
     auto solution = adjustJointly(survey, starts, options, progress, stop);
+    if (stop.stop_requested()) return cancelled();
     for (std::size_t i = 0; i < survey.runs.size(); ++i) {
         FusedRun& run = fused.runs[i];
         run.trajectory = solution ? std::move(solution->trajectories[i]) : std::move(starts[i].trajectory);
@@ -67,11 +68,7 @@ Result<FusedSurvey> adjusted(const Survey& survey, std::vector<RunFusion> runs, 
                 "are not used");
         }
     }
-    if (solution) {
-        fused.adjustment = std::move(solution->summary);
-    } else if (solution.error().kind == ErrorKind::Cancelled) {
-        return tl::unexpected(solution.error());
-    }
+    if (solution) fused.adjustment = std::move(solution->summary);
     return fused;
 }
 

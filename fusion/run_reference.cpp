@@ -16,6 +16,10 @@ namespace {
 constexpr double kUnknownStart_m = 300.0;    // sigma of a start that only a later mark will tell
 constexpr double kStartSigma_m = 0.01;       // sigma of a start that defines the frame
 constexpr double kHeldHeightSigma_m = 10.0;  // sigma of a height that nothing measures
+constexpr double kRecordGap_s = 5.0;
+constexpr double kNotableSilence_s = 60.0;     // of GNSS
+constexpr double kContradiction = 7.0;         // sigmas between a mark and what a sensor says of it
+constexpr double kLeastContradiction_m = 2.5;  // weather moves a barometer by more than its sigma says
 
 double squared(double x) {
     return x * x;
@@ -71,6 +75,7 @@ class ReferenceFinder {
         chooseGnssHeight();
         placeStart();
         noteMissing();
+        noteContradictions();
         return std::move(reference_);
     }
 
@@ -92,9 +97,13 @@ class ReferenceFinder {
 
     void surveySensors() {
         double pressure_s = log_.time_s.front();
+        double gnss_silence_s = 0.0;
         for (std::size_t i = 0; i < log_.size(); ++i) {
+            // Where there are no records at all, that is another matter.
+            if (i > 0) gnss_silence_s += std::min(log_.time_s[i] - log_.time_s[i - 1], kRecordGap_s);
             if (const auto epoch = gnss(i)) {
                 has_gnss_ = true;
+                gnss_silence_s = 0.0;
                 if (present(epoch->enu_m.z())) {
                     has_gnss_height_ = true;
                     (epoch->quality.rtk ? has_rtk_height_ : has_other_height_) = true;
@@ -111,6 +120,7 @@ class ReferenceFinder {
                 pressure_s = log_.time_s[i];
             }
             longest_silence_s_ = std::max(longest_silence_s_, log_.time_s[i] - pressure_s);
+            longest_gnss_silence_s_ = std::max(longest_gnss_silence_s_, gnss_silence_s);
             has_range_ = has_range_ || present(log_.value(Channel::Range, i));
         }
         const bool raw = options_.method == FusionMethod::Raw;
@@ -455,7 +465,12 @@ class ReferenceFinder {
     }
 
     void noteMissing() {
-        if (!has_gnss_) notes_.limitations.push_back("no GNSS position");
+        if (!has_gnss_) {
+            notes_.limitations.push_back("no GNSS position");
+        } else if (longest_gnss_silence_s_ > kNotableSilence_s) {
+            notes_.limitations.push_back(
+                fmt::format("no GNSS position for {:.0f} s", longest_gnss_silence_s_));
+        }
         if (!has_flow_) notes_.limitations.push_back("no optical flow that could be rotated to the ground");
         if (!has_pressure_) notes_.limitations.push_back("no barometer");
         if (!has_range_) notes_.limitations.push_back("no range finder: this run gives no ground points");
@@ -469,6 +484,66 @@ class ReferenceFinder {
         if (has_gnss_ && !log_.has(Channel::Fix)) {
             notes_.limitations.push_back("the log names no fix: every GNSS position counts as single");
         }
+    }
+
+    // A mark with the wrong name or coordinates pulls the track along: what the other sensors say of it must
+    // be seen.
+    void noteContradictions() {
+        for (const MarkStand& stand : markStands(survey_, run_, options_.stands)) {
+            if (!stand.may_tie) continue;
+            const std::vector<std::size_t> epochs = epochsWithin(stand.from_s, stand.to_s);
+            noteGnssAgainst(stand, epochs);
+            noteBarometerAgainst(stand);
+        }
+    }
+
+    void noteGnssAgainst(const MarkStand& stand, const std::vector<std::size_t>& epochs) {
+        std::vector<Weighted> east, north;
+        double sigma_m = 0.0;
+        for (const std::size_t i : epochs) {
+            const auto epoch = gnss(i);
+            if (!epoch) continue;
+            east.push_back({epoch->enu_m.x()});
+            north.push_back({epoch->enu_m.y()});
+            sigma_m = std::max(sigma_m, epoch->quality.sigma_m);
+        }
+        if (east.empty()) return;
+        const Eigen::Vector2d gnss_m(median(std::move(east)), median(std::move(north)));
+        const double apart_m = (gnss_m - stand.mark.enu_m.head<2>()).norm();
+        if (apart_m <= kContradiction * std::hypot(sigma_m, options_.ties.sigma_m, stand.mark.sigma_h_m)) {
+            return;
+        }
+        notes_.limitations.push_back(
+            fmt::format("GNSS is {:.1f} m away from mark {} on which the array stands at {:.0f} s: check "
+                        "the name and the coordinates of the mark",
+                        apart_m, stand.mark.name, stand.from_s));
+    }
+
+    void noteBarometerAgainst(const MarkStand& stand) {
+        if (!reference_.barometer_zero_m) return;
+        std::vector<Weighted> off_m;
+        double variance_m2 = reference_.height_reference_variance_m2 + squared(options_.barometer.sigma_m) +
+                             squared(options_.barometer.gust_sigma_m);
+        for (const MarkTie& tie : reference_.ties) {
+            const double time_s = log_.time_s[tie.epoch];
+            if (time_s < stand.from_s || time_s > stand.to_s) continue;
+            if (!tie.has_height || !std::isfinite(barometricHeight(tie.epoch))) continue;
+            const double up_m = reference_.barometricUp(log_.value(Channel::Pressure, tie.epoch),
+                                                        options_.barometer.scale, tie.array_enu_m);
+            off_m.push_back({up_m - tie.array_enu_m.z()});
+        }
+        if (off_m.empty()) return;
+        variance_m2 += squared(stand.mark.sigma_v_m) + squared(options_.ties.range_sigma_m) +
+                       squared(options_.barometer.drift_m_per_sqrt_min) *
+                           std::abs(stand.from_s - reference_.barometer_zero_time_s) / 60.0;
+        const double median_m = median(std::move(off_m));
+        if (std::abs(median_m) <= std::max(kContradiction * std::sqrt(variance_m2), kLeastContradiction_m)) {
+            return;
+        }
+        notes_.limitations.push_back(fmt::format(
+            "the barometer puts mark {} {:.1f} m {} its height at {:.0f} s: check the name "
+            "and the coordinates of the mark",
+            stand.mark.name, std::abs(median_m), median_m > 0.0 ? "above" : "below", stand.from_s));
     }
 
     const Survey& survey_;
@@ -488,6 +563,7 @@ class ReferenceFinder {
     std::size_t fixes_without_heading_ = 0;
     double near_mark_apart_s_ = 0.0;
     double longest_silence_s_ = 0.0;  // of the barometer
+    double longest_gnss_silence_s_ = 0.0;
     bool has_doppler_ = false;
     bool has_flow_ = false;
     bool has_pressure_ = false;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <metis.h>
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -84,6 +84,10 @@ Matrix permutedUpper(const Matrix& A, const Indices& place) {
     return lower.transpose();  // which sorts
 }
 
+Matrix permutedLower(const Matrix& A, const Indices& place) {
+    return permutedUpper(A, place).transpose();
+}
+
 /// Parent of each column in the elimination tree, -1 at a root. Source: Liu 1986.
 Indices eliminationTree(const Matrix& upper) {
     const auto n = static_cast<std::size_t>(upper.cols());
@@ -132,92 +136,117 @@ bool samePattern(const Matrix& a, const Matrix& b) {
 struct Supernode {
     Index first = 0;
     Index end = 0;
-    const int* rows = nullptr;  ///< below, rising
-    Index row_count = 0;
+    Indices rows;  ///< below, rising
     [[nodiscard]] Index width() const { return end - first; }
+    [[nodiscard]] Index rowCount() const { return static_cast<Index>(rows.size()); }
+    [[nodiscard]] Index size() const { return width() + rowCount(); }
 };
 
-std::vector<Supernode> supernodesOf(const Matrix& L) {
+/// Supernodes of the factor of a matrix whose columns are in postorder. A column has the rows of the matrix
+/// and those of its children, itself left out; its parent is the first of them. Source: Liu 1990.
+std::vector<Supernode> supernodesOf(const Matrix& lower) {
     // Wider ones would only cost memory for the dense blocks above their diagonal.
     constexpr Index kWidest = 128;
+    const auto n = static_cast<std::size_t>(lower.cols());
     std::vector<Supernode> supernodes;
-    const int* begins = L.outerIndexPtr();
-    for (Index j = 0; j < L.cols(); ++j) {
-        const bool joins = !supernodes.empty() && supernodes.back().width() < kWidest &&
-                           begins[j + 1] - begins[j] == begins[j] - begins[j - 1] - 1 &&
-                           L.innerIndexPtr()[begins[j - 1] + 1] == j;
-        if (!joins) supernodes.push_back({j, j, nullptr, 0});
-        Supernode& last = supernodes.back();
-        last.end = j + 1;
-        last.rows = L.innerIndexPtr() + begins[j] + 1;
-        last.row_count = begins[j + 1] - begins[j] - 1;
+    std::vector<Indices> children(n);  // of each column, by supernode; the last supernode is not yet there
+    Indices seen(n, -1);
+    Indices below;
+    for (int j = 0; j < lower.cols(); ++j) {
+        below.clear();
+        const auto take = [&](int i) {
+            if (i <= j || std::exchange(seen[static_cast<std::size_t>(i)], j) == j) return;
+            below.push_back(i);
+        };
+        for (Matrix::InnerIterator entry(lower, j); entry; ++entry) take(static_cast<int>(entry.row()));
+        for (const int child : children[static_cast<std::size_t>(j)]) {
+            for (const int i : supernodes[static_cast<std::size_t>(child)].rows) take(i);
+        }
+        const bool goes_on =
+            !supernodes.empty() && !supernodes.back().rows.empty() && supernodes.back().rows.front() == j;
+        if (goes_on) {
+            for (const int i : supernodes.back().rows) take(i);
+        }
+        if (goes_on && supernodes.back().width() < kWidest &&
+            below.size() + 1 == supernodes.back().rows.size()) {
+            supernodes.back().end = j + 1;
+            supernodes.back().rows.erase(supernodes.back().rows.begin());
+            continue;
+        }
+        if (!supernodes.empty() && !supernodes.back().rows.empty()) {
+            children[static_cast<std::size_t>(supernodes.back().rows.front())].push_back(
+                static_cast<int>(supernodes.size()) - 1);
+        }
+        std::sort(below.begin(), below.end());
+        supernodes.push_back({j, j + 1, below});
     }
     return supernodes;
 }
 
+/// Where a factor and its inverse have entries.
+struct Pattern {
+    Indices place;  ///< of each unknown in the order of elimination
+    std::vector<Supernode> supernodes;
+    std::vector<std::size_t> supernode_of;  ///< of each column
+
+    Pattern(Indices places, const Matrix& lower)
+        : place(std::move(places)), supernodes(supernodesOf(lower)), supernode_of(place.size()) {
+        for (std::size_t s = 0; s < supernodes.size(); ++s) {
+            std::fill(supernode_of.begin() + supernodes[s].first, supernode_of.begin() + supernodes[s].end,
+                      s);
+        }
+    }
+
+    /// Row of a place in the block of a supernode; nothing below 0.
+    [[nodiscard]] static Index rowIn(const Supernode& node, int at) {
+        if (at < node.end) return at - node.first;
+        const auto found = std::lower_bound(node.rows.begin(), node.rows.end(), at);
+        if (found == node.rows.end() || *found != at) return -1;
+        return node.width() + (found - node.rows.begin());
+    }
+
+    /// Rows of `node` from the `from`-th on as rows in the block of an ancestor, which has them all.
+    static void rowsIn(const Supernode& ancestor, const Supernode& node, Index from,
+                       std::vector<Index>& rows) {
+        rows.resize(static_cast<std::size_t>(node.rowCount() - from));
+        auto seek = ancestor.rows.begin();
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            const int at = node.rows[static_cast<std::size_t>(from) + k];
+            if (at < ancestor.end) {
+                rows[k] = at - ancestor.first;
+            } else {
+                while (*seek != at) ++seek;  // both rise
+                rows[k] = ancestor.width() + (seek - ancestor.rows.begin());
+            }
+        }
+    }
+};
+
 }  // namespace
 
 struct SelectedInverse::Blocks {
-    /// The pattern of the factor, values yet to come.
-    Blocks(const Indices& places, const Matrix& L)
-        : place(places), supernodes(supernodesOf(L)), supernode_of(places.size()), values(supernodes.size()) {
-        std::size_t row_count = 0;
-        for (const Supernode& node : supernodes) row_count += static_cast<std::size_t>(node.row_count);
-        rows.reserve(row_count);
-        for (std::size_t s = 0; s < supernodes.size(); ++s) {
-            Supernode& node = supernodes[s];
-            const int* copied = rows.data() + rows.size();
-            rows.insert(rows.end(), node.rows, node.rows + node.row_count);
-            node.rows = copied;
-            std::fill(supernode_of.begin() + node.first, supernode_of.begin() + node.end, s);
-        }
-    }
-    Blocks(const Blocks&) = delete;  // supernodes point into it
-    Blocks& operator=(const Blocks&) = delete;
-
-    Indices place;
-    std::vector<Supernode> supernodes;  ///< their rows point into `rows`
-    Indices rows;
-    std::vector<std::size_t> supernode_of;  ///< of each column
+    std::shared_ptr<const Pattern> pattern;
     /// Of each supernode: its own rows and columns, then the rows below. The first square is full.
     std::vector<Eigen::MatrixXd> values;
 
-    /// Row of an unknown in the block of a supernode; nothing below 0.
-    [[nodiscard]] Index rowIn(const Supernode& node, int unknown) const {
-        if (unknown < node.end) return unknown - node.first;
-        const int* found = std::lower_bound(node.rows, node.rows + node.row_count, unknown);
-        if (found == node.rows + node.row_count || *found != unknown) return -1;
-        return node.width() + (found - node.rows);
-    }
-
     /// The inverse at the rows below a supernode, lower triangle, from the blocks of its ancestors.
     void gatherBelow(const Supernode& node, std::vector<Index>& row_in_block, Eigen::MatrixXd& Z) const {
-        Z.resize(node.row_count, node.row_count);
-        for (Index from = 0; from < node.row_count;) {
-            const std::size_t above = supernode_of[static_cast<std::size_t>(node.rows[from])];
-            const Supernode& ancestor = supernodes[above];
-            const Eigen::MatrixXd& block = values[above];
-            Index to = from;
-            while (to < node.row_count && node.rows[to] < ancestor.end) ++to;
-            // Every row below is one of the ancestor's; both rise.
-            row_in_block.resize(static_cast<std::size_t>(node.row_count - from));
-            const int* seek = ancestor.rows;
-            for (Index i = from; i < node.row_count; ++i) {
-                Index& row = row_in_block[static_cast<std::size_t>(i - from)];
-                if (i < to) {
-                    row = node.rows[i] - ancestor.first;
-                } else {
-                    while (*seek != node.rows[i]) ++seek;
-                    row = ancestor.width() + (seek - ancestor.rows);
-                }
-            }
-            for (Index j = from; j < to; ++j) {
-                const double* column = block.col(node.rows[j] - ancestor.first).data();
-                for (Index i = j; i < node.row_count; ++i) {
+        const Index count = node.rowCount();
+        Z.resize(count, count);
+        for (Index from = 0; from < count;) {
+            const std::size_t above =
+                pattern->supernode_of[static_cast<std::size_t>(node.rows[static_cast<std::size_t>(from)])];
+            const Supernode& ancestor = pattern->supernodes[above];
+            Pattern::rowsIn(ancestor, node, from, row_in_block);
+            Index j = from;
+            for (; j < count && row_in_block[static_cast<std::size_t>(j - from)] < ancestor.width(); ++j) {
+                const double* column =
+                    values[above].col(row_in_block[static_cast<std::size_t>(j - from)]).data();
+                for (Index i = j; i < count; ++i) {
                     Z(i, j) = column[row_in_block[static_cast<std::size_t>(i - from)]];
                 }
             }
-            from = to;
+            from = j;
         }
     }
 };
@@ -225,68 +254,125 @@ struct SelectedInverse::Blocks {
 SelectedInverse::SelectedInverse(std::shared_ptr<const Blocks> blocks) : blocks_(std::move(blocks)) {}
 
 double SelectedInverse::at(Index i, Index j) const {
-    const Indices& place = blocks_->place;
-    assert(i >= 0 && j >= 0 && static_cast<std::size_t>(std::max(i, j)) < place.size());
-    const int a = place[static_cast<std::size_t>(i)];
-    const int b = place[static_cast<std::size_t>(j)];
+    const Pattern& pattern = *blocks_->pattern;
+    assert(i >= 0 && j >= 0 && static_cast<std::size_t>(std::max(i, j)) < pattern.place.size());
+    const int a = pattern.place[static_cast<std::size_t>(i)];
+    const int b = pattern.place[static_cast<std::size_t>(j)];
     const int row = std::max(a, b);
     const int column = std::min(a, b);
-    const std::size_t node = blocks_->supernode_of[static_cast<std::size_t>(column)];
-    const Index row_in_block = blocks_->rowIn(blocks_->supernodes[node], row);
+    const std::size_t node = pattern.supernode_of[static_cast<std::size_t>(column)];
+    const Index row_in_block = Pattern::rowIn(pattern.supernodes[node], row);
     if (row_in_block < 0) return std::numeric_limits<double>::quiet_NaN();
-    return blocks_->values[node](row_in_block, column - blocks_->supernodes[node].first);
+    return blocks_->values[node](row_in_block, column - pattern.supernodes[node].first);
 }
 
 Eigen::VectorXd SelectedInverse::diagonal() const {
-    Eigen::VectorXd diagonal(static_cast<Index>(blocks_->place.size()));
+    Eigen::VectorXd diagonal(static_cast<Index>(blocks_->pattern->place.size()));
     for (Index i = 0; i < diagonal.size(); ++i) diagonal[i] = at(i, i);
     return diagonal;
 }
 
 struct SparseCholesky::Factor {
-    Indices place;
-    Matrix upper;  ///< P A P'
-    Eigen::SimplicialLLT<Matrix, Eigen::Upper, Eigen::NaturalOrdering<int>> llt;
-
-    [[nodiscard]] const Matrix& L() const { return llt.matrixL().nestedExpression(); }
+    Matrix lower;  ///< P A P'
+    std::shared_ptr<const Pattern> pattern;
+    /// Of each supernode: its own rows and columns, lower triangle, then the rows below.
+    std::vector<Eigen::MatrixXd> blocks;
 
     /// Numbers the places anew where that makes columns of equal pattern neighbours.
-    void analyze(const Matrix& A) {
-        const Indices moved = postorder(eliminationTree(upper));
+    void analyze(const Matrix& A, Indices place) {
+        const Indices moved = postorder(eliminationTree(permutedUpper(A, place)));
         for (int& p : place) p = moved[static_cast<std::size_t>(p)];
-        upper = permutedUpper(A, place);
-        llt.analyzePattern(upper);
+        lower = permutedLower(A, place);
+        pattern = std::make_shared<const Pattern>(std::move(place), lower);
     }
 
     /// The system's own number of the unknown at a place.
     [[nodiscard]] Index unknownAt(Index at) const {
+        const Indices& place = pattern->place;
         return std::find(place.begin(), place.end(), static_cast<int>(at)) - place.begin();
     }
     [[nodiscard]] tl::unexpected<Error> undetermined(Index at) const {
         return badData(fmt::format("the system of equations does not determine unknown {}", unknownAt(at)));
     }
     [[nodiscard]] double diagonal(Index j) const {
-        const Index last = upper.outerIndexPtr()[j + 1] - 1;
-        const bool present = last >= upper.outerIndexPtr()[j] && upper.innerIndexPtr()[last] == j;
-        return present ? upper.valuePtr()[last] : 0.0;
+        const Index first = lower.outerIndexPtr()[j];
+        const bool present = first < lower.outerIndexPtr()[j + 1] && lower.innerIndexPtr()[first] == j;
+        return present ? lower.valuePtr()[first] : 0.0;
     }
 
-    Result<void> factorizeNumbers() {
-        for (Index k = 0; k < upper.nonZeros(); ++k) {
-            if (!std::isfinite(upper.valuePtr()[k])) {
+    /// What a supernode leaves to the rows below it, until its parent takes that.
+    struct Update {
+        std::size_t node;
+        Eigen::MatrixXd values;  ///< lower triangle
+    };
+
+    /// Multifrontal: the columns of a supernode and the rows below are one dense matrix, in which the
+    /// children's updates are summed up. Source: Duff and Reid 1983; Liu 1992.
+    Result<void> factorizeNumbers(const std::stop_token& stop) {
+        for (Index k = 0; k < lower.nonZeros(); ++k) {
+            if (!std::isfinite(lower.valuePtr()[k])) {
                 return badData("the system of equations holds a number that is not finite");
             }
         }
-        for (Index j = 0; j < upper.cols(); ++j) {
+        for (Index j = 0; j < lower.cols(); ++j) {
             if (!(diagonal(j) > 0.0)) return undetermined(j);
         }
-        llt.factorize(upper);
-        if (llt.info() != Eigen::Success) return badData("the system of equations is not positive definite");
-        for (Index j = 0; j < upper.cols(); ++j) {
-            const double pivot = L().valuePtr()[L().outerIndexPtr()[j]];
-            const double least = 64.0 * std::numeric_limits<double>::epsilon() * diagonal(j);
-            if (!(pivot * pivot > least)) return undetermined(j);
+        blocks.resize(pattern->supernodes.size());
+        std::vector<Update> updates;  // in postorder the children's are the last
+        Eigen::MatrixXd front;
+        std::vector<Index> rows;
+        for (std::size_t s = 0; s < blocks.size(); ++s) {
+            if (stop.stop_requested()) return cancelled();
+            const Supernode& node = pattern->supernodes[s];
+            front.setZero(node.size(), node.size());
+            for (Index j = node.first; j < node.end; ++j) {
+                for (Matrix::InnerIterator entry(lower, j); entry; ++entry) {
+                    front(Pattern::rowIn(node, static_cast<int>(entry.row())), j - node.first) =
+                        entry.value();
+                }
+            }
+            while (!updates.empty() && parentOf(updates.back().node) == s) {
+                addUpdate(updates.back(), node, rows, front);
+                updates.pop_back();
+            }
+            if (auto done = eliminate(node, front); !done) return done;
+            blocks[s] = front.leftCols(node.width());
+            if (node.rowCount() > 0) {
+                updates.push_back({s, front.bottomRightCorner(node.rowCount(), node.rowCount())});
+            }
         }
+        return {};
+    }
+
+    [[nodiscard]] std::size_t parentOf(std::size_t s) const {
+        return pattern->supernode_of[static_cast<std::size_t>(pattern->supernodes[s].rows.front())];
+    }
+
+    void addUpdate(const Update& update, const Supernode& node, std::vector<Index>& rows,
+                   Eigen::MatrixXd& front) const {
+        Pattern::rowsIn(node, pattern->supernodes[update.node], 0, rows);
+        for (std::size_t j = 0; j < rows.size(); ++j) {
+            double* column = front.col(rows[j]).data();
+            const double* added = update.values.col(static_cast<Index>(j)).data();
+            for (std::size_t i = j; i < rows.size(); ++i) column[rows[i]] += added[i];
+        }
+    }
+
+    /// The columns of the node become those of the factor, the rest its update.
+    Result<void> eliminate(const Supernode& node, Eigen::MatrixXd& front) const {
+        const Index width = node.width();
+        const Index below = node.rowCount();
+        Eigen::Ref<Eigen::MatrixXd> own = front.topLeftCorner(width, width);
+        const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(own);
+        if (llt.info() != Eigen::Success) return badData("the system of equations is not positive definite");
+        for (Index k = 0; k < width; ++k) {
+            const double least = 64.0 * std::numeric_limits<double>::epsilon() * diagonal(node.first + k);
+            if (!(own(k, k) * own(k, k) > least)) return undetermined(node.first + k);
+        }
+        if (below == 0) return {};
+        Eigen::Ref<Eigen::MatrixXd> rows = front.bottomLeftCorner(below, width);
+        own.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(rows);
+        front.bottomRightCorner(below, below).selfadjointView<Eigen::Lower>().rankUpdate(rows, -1.0);
         return {};
     }
 };
@@ -296,69 +382,89 @@ SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 SparseCholesky::~SparseCholesky() = default;
 
-Result<SparseCholesky> SparseCholesky::factorize(const Matrix& A) {
+Result<SparseCholesky> SparseCholesky::factorize(const Matrix& A, const std::stop_token& stop) {
     assert(A.rows() == A.cols());
     auto factor = std::make_unique<Factor>();
-    factor->place = dissect(A);
-    factor->upper = permutedUpper(A, factor->place);
-    factor->analyze(A);
-    if (auto done = factor->factorizeNumbers(); !done) return tl::unexpected(done.error());
+    factor->analyze(A, dissect(A));
+    if (auto done = factor->factorizeNumbers(stop); !done) return tl::unexpected(done.error());
     return SparseCholesky(std::move(factor));
 }
 
-Result<void> SparseCholesky::refactorize(const Matrix& A) {
-    assert(A.rows() == A.cols() && A.cols() == factor_->upper.cols());
-    Matrix upper = permutedUpper(A, factor_->place);
-    const bool same = samePattern(upper, factor_->upper);
-    factor_->upper = std::move(upper);
-    if (!same) factor_->analyze(A);
-    return factor_->factorizeNumbers();
+Result<void> SparseCholesky::refactorize(const Matrix& A, const std::stop_token& stop) {
+    assert(A.rows() == A.cols() && A.cols() == factor_->lower.cols());
+    Matrix lower = permutedLower(A, factor_->pattern->place);
+    if (samePattern(lower, factor_->lower)) {
+        factor_->lower = std::move(lower);
+    } else {
+        factor_->analyze(A, factor_->pattern->place);
+    }
+    return factor_->factorizeNumbers(stop);
 }
 
 Eigen::VectorXd SparseCholesky::solve(const Eigen::VectorXd& b) const {
-    const auto P = permutationOf(factor_->place);
-    const Eigen::VectorXd permuted = P * b;
-    const Eigen::VectorXd x = factor_->llt.solve(permuted);
+    const Pattern& pattern = *factor_->pattern;
+    const auto P = permutationOf(pattern.place);
+    Eigen::VectorXd x = P * b;
+    Eigen::VectorXd below;
+    for (std::size_t s = 0; s < pattern.supernodes.size(); ++s) {
+        const Supernode& node = pattern.supernodes[s];
+        const Eigen::MatrixXd& L = factor_->blocks[s];
+        auto own = x.segment(node.first, node.width());
+        L.topRows(node.width()).triangularView<Eigen::Lower>().solveInPlace(own);
+        below.noalias() = L.bottomRows(node.rowCount()) * own;
+        for (std::size_t i = 0; i < node.rows.size(); ++i) x[node.rows[i]] -= below[static_cast<Index>(i)];
+    }
+    for (std::size_t s = pattern.supernodes.size(); s-- > 0;) {
+        const Supernode& node = pattern.supernodes[s];
+        const Eigen::MatrixXd& L = factor_->blocks[s];
+        auto own = x.segment(node.first, node.width());
+        below.resize(node.rowCount());
+        for (std::size_t i = 0; i < node.rows.size(); ++i) below[static_cast<Index>(i)] = x[node.rows[i]];
+        own.noalias() -= L.bottomRows(node.rowCount()).transpose() * below;
+        L.topRows(node.width()).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
+    }
     return P.transpose() * x;
 }
 
 double SparseCholesky::logDeterminant() const {
     double sum = 0.0;
-    for (Index j = 0; j < factor_->L().cols(); ++j) {
-        sum += std::log(factor_->L().valuePtr()[factor_->L().outerIndexPtr()[j]]);
+    for (std::size_t s = 0; s < factor_->blocks.size(); ++s) {
+        for (Index k = 0; k < factor_->pattern->supernodes[s].width(); ++k) {
+            sum += std::log(factor_->blocks[s](k, k));
+        }
     }
     return 2.0 * sum;
 }
 
 Index SparseCholesky::factorNonZeros() const {
-    return factor_->L().nonZeros();
+    Index count = 0;
+    for (const Supernode& node : factor_->pattern->supernodes) {
+        count += node.width() * (node.width() + 1) / 2 + node.width() * node.rowCount();
+    }
+    return count;
 }
 
-SelectedInverse SparseCholesky::selectedInverse() const {
-    const Matrix& L = factor_->L();
-    auto inverse = std::make_shared<SelectedInverse::Blocks>(factor_->place, L);
-    Eigen::MatrixXd L_JJ, Y, Z_RR;
+Result<SelectedInverse> SparseCholesky::selectedInverse(const std::stop_token& stop) const {
+    auto inverse = std::make_shared<SelectedInverse::Blocks>();
+    inverse->pattern = factor_->pattern;
+    inverse->values.resize(factor_->blocks.size());
+    Eigen::MatrixXd Y, Z_RR;
     std::vector<Index> row_in_block;
-    for (std::size_t s = inverse->supernodes.size(); s-- > 0;) {
-        const Supernode& node = inverse->supernodes[s];
+    for (std::size_t s = inverse->values.size(); s-- > 0;) {
+        if (stop.stop_requested()) return cancelled();
+        const Supernode& node = factor_->pattern->supernodes[s];
         const Index width = node.width();
-        L_JJ.setZero(width, width);
-        Y.resize(node.row_count, width);
-        for (Index k = 0; k < width; ++k) {
-            const double* column = L.valuePtr() + L.outerIndexPtr()[node.first + k];
-            std::copy(column, column + (width - k), L_JJ.col(k).data() + k);
-            std::copy(column + (width - k), column + (width - k) + node.row_count, Y.col(k).data());
-        }
-        const auto triangle = L_JJ.triangularView<Eigen::Lower>();
+        const auto triangle = factor_->blocks[s].topRows(width).triangularView<Eigen::Lower>();
         const Eigen::MatrixXd L_inverse = triangle.solve(Eigen::MatrixXd::Identity(width, width));
         Eigen::MatrixXd& Z = inverse->values[s];
-        Z.resize(width + node.row_count, width);
+        Z.resize(node.size(), width);
         Z.topRows(width).noalias() = L_inverse.transpose() * L_inverse;
-        if (node.row_count == 0) continue;
+        if (node.rowCount() == 0) continue;
+        Y = factor_->blocks[s].bottomRows(node.rowCount());
         triangle.solveInPlace<Eigen::OnTheRight>(Y);
         inverse->gatherBelow(node, row_in_block, Z_RR);
-        Z.bottomRows(node.row_count).noalias() = -(Z_RR.selfadjointView<Eigen::Lower>() * Y);
-        Z.topRows(width).noalias() -= Y.transpose() * Z.bottomRows(node.row_count);
+        Z.bottomRows(node.rowCount()).noalias() = -(Z_RR.selfadjointView<Eigen::Lower>() * Y);
+        Z.topRows(width).noalias() -= Y.transpose() * Z.bottomRows(node.rowCount());
     }
     return SelectedInverse(std::move(inverse));
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <memory>
+#include <stop_token>
 
 #include "survey/result.hpp"
 
@@ -27,19 +28,22 @@ class SelectedInverse {
 
 /// Cholesky factor of a sparse symmetric positive definite matrix, P A P' = L L', in the order of a nested
 /// dissection (METIS), which for a walk with crossings fills in a half to a fifth of what minimum degree
-/// does. One thread; the same bytes each time on one machine. Queries are safe from any thread.
+/// does; numbers are found supernode by supernode in dense matrices. One thread; the same bytes each time on
+/// one machine. Queries are safe from any thread.
 class SparseCholesky {
   public:
     /// @param A  square; only its lower triangle is read, diagonal included
     /// Errors: BadData when A has an entry that is not finite, or when it is not positive definite to
     /// rounding: a pivot that is not above 64 eps of its diagonal entry, as for unknowns that nothing
-    /// measures.
-    [[nodiscard]] static Result<SparseCholesky> factorize(const Eigen::SparseMatrix<double>& A);
+    /// measures; Cancelled.
+    [[nodiscard]] static Result<SparseCholesky> factorize(const Eigen::SparseMatrix<double>& A,
+                                                          const std::stop_token& stop = {});
 
     /// The factor of another matrix of the same size and much the same pattern, such as that of the next
     /// iteration: keeps the order, and the symbolic analysis as well where the pattern is the very same.
     /// After an error this object holds no factor and may only be factorized anew.
-    [[nodiscard]] Result<void> refactorize(const Eigen::SparseMatrix<double>& A);
+    [[nodiscard]] Result<void> refactorize(const Eigen::SparseMatrix<double>& A,
+                                           const std::stop_token& stop = {});
 
     /// x with A x = b.
     [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
@@ -51,7 +55,8 @@ class SparseCholesky {
     ///     Z_RJ = -Z_RR Y,   Z_JJ = (L_JJ L_JJ')^-1 - Y' Z_RJ,   Y = L_RJ L_JJ^-1
     /// from the last supernode to the first.
     /// Source: Takahashi, Fagan and Chin 1973; Erisman and Tinney 1975; by blocks: Lin et al. 2011 (SelInv).
-    [[nodiscard]] SelectedInverse selectedInverse() const;
+    /// Errors: Cancelled.
+    [[nodiscard]] Result<SelectedInverse> selectedInverse(const std::stop_token& stop = {}) const;
 
     SparseCholesky(SparseCholesky&&) noexcept;
     SparseCholesky& operator=(SparseCholesky&&) noexcept;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace terrawalk {
 
@@ -45,8 +46,10 @@ double expectedWeightedSquare(Loss loss, double tuning) {
     return sum / mass;
 }
 
-SparseLeastSquares::SparseLeastSquares(std::size_t unknowns, std::vector<RowGroup> groups)
-    : unknowns_(unknowns), groups_(std::move(groups)) {}
+SparseLeastSquares::SparseLeastSquares(std::size_t unknowns, std::vector<RowGroup> groups,
+                                       std::stop_token stop)
+    : unknowns_(unknowns), stop_(std::move(stop)), groups_(std::move(groups)) {}
+
 std::size_t SparseLeastSquares::addRow(std::size_t group, std::span<const Coefficient> coefficients,
                                        double residual, double sigma) {
     assert(sigma > 0.0 && group < groups_.size());
@@ -94,9 +97,9 @@ std::optional<Eigen::VectorXd> SparseLeastSquares::solve() {
     normal.setFromTriplets(entries.begin(), entries.end());
     inverse_.reset();
     if (factor_) {
-        if (!factor_->refactorize(normal)) return std::nullopt;
+        if (!factor_->refactorize(normal, stop_)) return std::nullopt;
     } else {
-        auto factor = SparseCholesky::factorize(normal);
+        auto factor = SparseCholesky::factorize(normal, stop_);
         if (!factor) return std::nullopt;
         factor_ = std::move(*factor);
     }
@@ -106,7 +109,14 @@ std::optional<Eigen::VectorXd> SparseLeastSquares::solve() {
 }
 
 double SparseLeastSquares::covariance(std::size_t i, std::size_t j) {
-    if (!inverse_) inverse_ = factor_->selectedInverse();
+    if (!inverse_) {
+        if (!stopped_) {
+            auto inverse = factor_->selectedInverse(stop_);
+            stopped_ = !inverse;
+            if (inverse) inverse_ = std::move(*inverse);
+        }
+        if (stopped_) return std::numeric_limits<double>::quiet_NaN();
+    }
     return inverse_->at(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
 }
 

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,7 +27,7 @@ struct RowGroup {
     std::string name;
     Loss loss = Loss::Square;
     double tuning = 3.0;
-    bool by_median = false;  ///< the factor comes from the median residual: for rows with many outliers
+    bool by_median = false;    ///< the factor comes from the median residual: for rows with many outliers
     bool adapt = false;        ///< whether the factor may be estimated
     double least_scale = 0.2;  ///< limits of the factor
     double greatest_scale = 5.0;
@@ -58,7 +59,8 @@ struct Coefficient {
 /// Koch 1999, section 3.6 (variance components); Takahashi, Fagan and Chin 1973 (selected inverse).
 class SparseLeastSquares {
   public:
-    SparseLeastSquares(std::size_t unknowns, std::vector<RowGroup> groups);
+    /// @param stop  ends solve() without a solution, and leaves covariances NaN
+    SparseLeastSquares(std::size_t unknowns, std::vector<RowGroup> groups, std::stop_token stop = {});
 
     /// @param sigma  > 0
     /// @return number of the row
@@ -75,7 +77,8 @@ class SparseLeastSquares {
     /// Takes the order of elimination of an earlier system with much the same pattern.
     void continueFrom(SparseLeastSquares& earlier) { factor_ = std::move(earlier.factor_); }
 
-    /// Least-squares x for the weights of the present residuals; nothing when the rows do not determine it.
+    /// Least-squares x for the weights of the present residuals; nothing when the rows do not determine it,
+    /// or after a stop request.
     [[nodiscard]] std::optional<Eigen::VectorXd> solve();
 
     /// Entry of the inverse normal matrix, the covariance of the unknowns as the rows have it. Both unknowns
@@ -98,6 +101,7 @@ class SparseLeastSquares {
     [[nodiscard]] double weightOf(std::size_t row, double residual) const;
 
     std::size_t unknowns_;
+    std::stop_token stop_;
     std::vector<RowGroup> groups_;
     std::vector<std::size_t> first_{0};  // of each row's coefficients, and the end
     std::vector<Coefficient> coefficients_;
@@ -107,6 +111,7 @@ class SparseLeastSquares {
     std::vector<std::pair<std::size_t, std::size_t>> wanted_;
     std::optional<SparseCholesky> factor_;
     std::optional<SelectedInverse> inverse_;
+    bool stopped_ = false;  // before there was an inverse; thousands of covariances must not try again
 };
 
 /// Expected weight (r / sigma)^2 of a standard normal r under a loss; what weighted squares are divided by.

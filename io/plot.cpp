@@ -117,7 +117,20 @@ struct Tick {
     std::string label;
 };
 
-std::vector<Tick> axisTicks(const Scale& scale, int most) {
+/// 1, 2 and 5 of each power of ten between `low` and `high`.
+std::vector<Tick> ticksOfDecades(double low, double high) {
+    std::vector<Tick> ticks;
+    for (int exponent = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, exponent) <= high;
+         ++exponent) {
+        for (const double digit : {1.0, 2.0, 5.0}) {
+            const double value = digit * std::pow(10.0, exponent);
+            ticks.push_back({value, fmt::format("{:g}", value)});
+        }
+    }
+    return ticks;
+}
+
+std::vector<Tick> axisTicks(const Scale& scale, const PlotAxis& axis, int most) {
     std::vector<Tick> ticks;
     // Below a decade and a half there are too few powers of ten to read values from.
     if (scale.logarithmic && scale.high - scale.low >= 1.5) {
@@ -130,12 +143,16 @@ std::vector<Tick> axisTicks(const Scale& scale, int most) {
     }
     const double low = scale.logarithmic ? std::pow(10.0, scale.low) : scale.low;
     const double high = scale.logarithmic ? std::pow(10.0, scale.high) : scale.high;
+    // Over little more than half a decade 1, 2 and 5 are too few, and even steps still lie apart.
+    if (scale.logarithmic && scale.high - scale.low >= 0.75) return ticksOfDecades(low, high);
     const Ticks nice = niceTicks(low, high, most);
     const bool large = std::max(std::abs(low), std::abs(high)) >= 1e5;
     for (const double value : nice.values) {
         if (scale.logarithmic && value <= 0.0) continue;
-        ticks.push_back({value, large || nice.decimals > 4 ? fmt::format("{:g}", value)
-                                                           : fixedDecimals(value, nice.decimals)});
+        if (axis.whole_numbers && value != std::round(value)) continue;
+        ticks.push_back({value, large || nice.decimals > 4
+                                    ? fmt::format("{:g}", value)
+                                    : fixedDecimals(value, axis.whole_numbers ? 0 : nice.decimals)});
     }
     return ticks;
 }
@@ -226,14 +243,14 @@ PanelFrame panelFrame(const PlotPanel& panel, double left, double top, double ri
 }
 
 void drawAxes(Svg& svg, const PlotPanel& panel, const PanelFrame& f) {
-    for (const Tick& tick : axisTicks(f.y, 6)) {
+    for (const Tick& tick : axisTicks(f.y, panel.y, 6)) {
         if (!f.y.holds(tick.value)) continue;
         svg.line(f.left, f.y.at(tick.value), f.right, f.y.at(tick.value), "grid");
         svg.text(f.left - 6, f.y.at(tick.value) + 4, tick.label, "tick", Anchor::End);
     }
     if (panel.samples.empty()) {
         const int most = std::max(2, static_cast<int>((f.right - f.left) / 64.0));
-        for (const Tick& tick : axisTicks(f.x, most)) {
+        for (const Tick& tick : axisTicks(f.x, panel.x, most)) {
             if (!f.x.holds(tick.value)) continue;
             svg.line(f.x.at(tick.value), f.top, f.x.at(tick.value), f.bottom, "grid");
             svg.text(f.x.at(tick.value), f.bottom + 16, tick.label, "tick", Anchor::Middle);
@@ -341,8 +358,8 @@ void drawSamples(Svg& svg, const PlotPanel& panel, const PanelFrame& f) {
         std::copy_if(sample.values.begin(), sample.values.end(), std::back_inserter(values),
                      [&](double v) { return shows(panel.y, v) && f.y.holds(v); });
         const int colour = sample.colour % kColours;
-        if (values.size() == 1) {
-            const double ground = f.y.logarithmic || !f.y.holds(0.0) ? f.bottom : f.y.at(0.0);
+        if (values.size() == 1 && !f.y.logarithmic) {
+            const double ground = f.y.holds(0.0) ? f.y.at(0.0) : f.bottom;
             const double tip = f.y.at(values.front());
             svg.rectangle(middle - half, std::min(ground, tip), 2 * half, std::abs(ground - tip),
                           fmt::format("box f{}", colour), fmt::format("{:.6g}", values.front()));

@@ -11,6 +11,7 @@ namespace terrawalk {
 struct PlotAxis {
     std::string label;  ///< with the unit
     bool logarithmic = false;
+    bool whole_numbers = false;  ///< labels at whole numbers only
     std::optional<std::pair<double, double>> range;
 };
 
@@ -25,8 +26,8 @@ struct PlotSeries {
 };
 
 /// A named sample, drawn as a box (quartiles, median, whiskers to the last value within 1.5 quartile
-/// distances, values beyond as circles); a sample of one is drawn as a bar from zero, or from the axis where
-/// it is logarithmic.
+/// distances, values beyond as circles); a sample of one is drawn as a bar from zero, or as a median on a
+/// logarithmic axis, which has no zero.
 struct PlotSample {
     std::string name;
     std::vector<double> values;

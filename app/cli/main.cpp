@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <new>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kExitUsage = 2;
+constexpr FusionMethod kTunedMethod = FusionMethod::Aukf;  // by `tune`, where no other is named
 
 int exitCode(ErrorKind kind) {
     switch (kind) {
@@ -114,9 +116,22 @@ void addSettings(CLI::App& command, ProcessArguments& arguments) {
         ->allow_extra_args(false);
 }
 
-void addConfiguration(CLI::App& command, ProcessArguments& arguments) {
+/// Names of many things in one line of the help.
+template <class Range, class NameOf>
+std::string listed(Range&& range, NameOf nameOf) {
+    std::string list;
+    for (const auto& item : range) list += (list.empty() ? "" : ", ") + std::string(nameOf(item));
+    return list;
+}
+
+void addConfiguration(CLI::App& command, ProcessArguments& arguments,
+                      FusionMethod method = FusionOptions{}.method) {
     addSettings(command, arguments);
-    command.add_option("--method", arguments.method, "raw, ukf or aukf; short for --set fusion.method=...");
+    command
+        .add_option("--method", arguments.method,
+                    "Short for --set fusion.method=NAME: " +
+                        listed(kFusionMethodNames, [](const auto& pair) { return pair.second; }))
+        ->option_text(fmt::format("NAME [{}]", name(method)));
     command.add_option("--seed", arguments.seed, "Short for --set seed=...");
 }
 
@@ -179,7 +194,7 @@ int runProcess(const ProcessArguments& arguments, const Common& common, Terminal
 int runTune(TuneArguments& arguments, const Common& common, TerminalProgress& progress,
             const std::stop_token& stop) {
     ProcessArguments& asked = arguments.survey_and_configuration;
-    if (!asked.method) asked.method = "aukf";
+    if (!asked.method) asked.method = name(kTunedMethod);
     const auto config = configuration(asked);
     if (!config) return fail(config.error(), common, progress);
     asked.tuning.seed = config->seed;
@@ -326,7 +341,7 @@ int run(int argc, char** argv) {
     tune_command->add_flag("--resume", tune.files.resume, "Go on where an interrupted tuning stopped");
     tune_command->add_option("--checkpoint", tune.files.checkpoint,
                              "File that keeps the work of an interrupted tuning [OUTPUT.checkpoint]");
-    addConfiguration(*tune_command, tune.survey_and_configuration);
+    addConfiguration(*tune_command, tune.survey_and_configuration, kTunedMethod);
     addCommon(*tune_command, common);
 
     ProcessArguments compare;
@@ -352,15 +367,22 @@ int run(int argc, char** argv) {
     addCommon(*simulate_command, common);
 
     ExperimentArguments experiment;
-    CLI::App* experiment_command = app.add_subcommand("experiment", "Repeat an experiment of the papers");
-    CLI::Option* experiment_name = experiment_command->add_option("name", experiment.name, "Which one");
-    experiment_command->add_flag("--list", experiment.list, "Show all experiments")
+    CLI::App* experiment_command = app.add_subcommand(
+        "experiment", "Repeat an experiment of the papers, or measure accuracy and outages");
+    CLI::Option* experiment_name = experiment_command->add_option(
+        "name", experiment.name,
+        "Which one: " + listed(experiments(), [](const Experiment& e) { return e.name; }));
+    experiment_command->add_flag("--list", experiment.list, "Show what each of them is")
         ->excludes(experiment_name);
     experiment_command
         ->add_option("survey", experiment.options.survey,
-                     "Survey to work on, for experiments that take one; a simulated one where it is left out")
+                     "Survey to work on, for " +
+                         listed(experiments() | std::views::filter(&Experiment::takes_survey),
+                                [](const Experiment& e) { return e.name; }) +
+                         "; a simulated one where it is left out")
         ->excludes("--list");
-    experiment_command->add_flag("--quick", experiment.options.quick, "A small form, done in seconds");
+    experiment_command->add_flag("--quick", experiment.options.quick,
+                                 "A small form, done in seconds to a minute");
     experiment_command->add_option("-o,--output", experiment.output, "Folder for NAME.csv and NAME.svg")
         ->capture_default_str();
     experiment_command->add_option("--seed", experiment.options.seed, "Of all random numbers")

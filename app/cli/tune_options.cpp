@@ -24,7 +24,7 @@ std::vector<CLI::Option*> addTuneOptions(CLI::App& command, TuneOptions& o) {
             command
                 .add_option_function<int>(
                     "--parameters", [&o](int n) { o.hyperparameters = n == 12; },
-                    "aukf: 9 or 12, the same as --hyperparameters")
+                    "aukf: how many are tuned; 12 is --hyperparameters")
                 ->check(CLI::IsMember({9, 12}))
                 ->excludes(hyperparameters)};
 }

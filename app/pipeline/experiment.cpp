@@ -87,8 +87,9 @@ Result<ExperimentReport> runExperiment(std::string_view name, const ExperimentOp
     const auto* const experiment = std::find_if(kExperiments.begin(), kExperiments.end(),
                                                 [&](const Experiment& e) { return e.name == name; });
     if (experiment == kExperiments.end()) {
-        return usageError(fmt::format("no experiment is called \"{}\"", name),
-                          "terrawalk experiment --list shows them");
+        return usageError(
+            name.empty() ? "no experiment is named" : fmt::format("no experiment is called \"{}\"", name),
+            "terrawalk experiment --list shows them");
     }
     if (!options.survey.empty() && !experiment->takes_survey) {
         return usageError(fmt::format("the experiment {} takes no survey", name), "leave it out");

@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "tests/cli/cli_support.hpp"
 
@@ -339,6 +341,27 @@ TEST(Process, RunsThatAreLeftOutStandForNoCell) {
     const json report = json::parse(bytesOf(scratch / "out/report.json"));
     for (const json& run : report.at("runs")) {
         EXPECT_EQ(run.at("ground_points_used").get<int>() > 0, run.at("kind") == "area") << run.at("id");
+    }
+}
+
+// Whatever a command accepts stands in its help.
+TEST(Usage, HelpNamesEveryMethodAndEveryExperiment) {
+    const std::string process = terrawalk({"process", "--help"}).out;
+    const std::string list = process.substr(process.find("fusion.method=NAME"));
+    const auto parameters = json::parse(terrawalk({"config", "describe", "--json"}).out).at("parameters");
+    const auto method = std::find_if(parameters.begin(), parameters.end(),
+                                     [](const json& p) { return p.at("key") == "fusion.method"; });
+    ASSERT_NE(method, parameters.end());
+    std::stringstream names(method->at("permitted").get<std::string>());
+    std::size_t methods = 0;
+    for (std::string name; std::getline(names >> std::ws, name, ','); ++methods) {
+        EXPECT_THAT(list.substr(0, list.find("--seed")), HasSubstr(name));
+    }
+    EXPECT_GE(methods, 4u);
+    const std::string experiment = terrawalk({"experiment", "--help"}).out;
+    std::stringstream lines(terrawalk({"experiment", "--list"}).out);
+    for (std::string line; std::getline(lines, line);) {
+        EXPECT_THAT(experiment, HasSubstr(line.substr(0, line.find(' '))));
     }
 }
 

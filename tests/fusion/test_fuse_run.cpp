@@ -265,6 +265,34 @@ TEST(FuseRun, DownWeightsWhatIsOddButNotImpossible) {
     EXPECT_GE(use(run, "GNSS position")->down_weighted, 10U);
 }
 
+// 20 m, or 5 m of height, are no error of a sensor: someone has typed a mark wrong. It is named, whatever
+// becomes of the track.
+TEST(FuseRun, NamesAMarkThatTheSensorsContradict) {
+    MadeRun made = makeRun();
+    made.run().target = "T01";
+    const auto contradicted = HasNote("check the name and the coordinates of the mark");
+    EXPECT_THAT(fused(made), testing::Not(contradicted));
+    MadeRun aside = made;
+    aside.survey.marks[0].enu_m.x() += 20.0;
+    EXPECT_THAT(fused(aside), HasNote("GNSS is"));
+    EXPECT_THAT(fused(aside), HasNote("m away from mark T01"));
+    MadeRun above = made;
+    above.survey.marks[0].enu_m.z() += 5.0;
+    EXPECT_THAT(fused(above), HasNote("the barometer puts mark T01 5.0 m below its height"));
+    MadeRun both_good = makeRun({.fix = fix_code::kRtkFixed, .errors = {.gnss_m = 0.01}});
+    both_good.run().target = "T01";
+    EXPECT_THAT(fused(both_good), testing::Not(contradicted));
+    both_good.survey.marks[0].enu_m.y() += 2.0;  // RTK tells less
+    EXPECT_THAT(fused(both_good), contradicted);
+}
+
+TEST(FuseRun, SaysForHowLongGnssWasSilent) {
+    MadeRun made = makeRun({.epochs = 900});
+    EXPECT_THAT(fused(made), testing::Not(HasNote("no GNSS position for")));
+    for (std::size_t i = 200; i < 600; ++i) made.log().column(Channel::Latitude)[i] = kMissing;
+    EXPECT_THAT(fused(made), HasNote("no GNSS position for 80 s"));
+}
+
 // The filter starts on the wrong mark, 60 m off, so GNSS is right and is rejected at first.
 TEST(FuseRun, LetsGnssInAgainWhenTheFilterWasWrong) {
     MadeRun made = makeRun({.epochs = 900});

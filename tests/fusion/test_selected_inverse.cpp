@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stop_token>
 #include <thread>
 #include <vector>
 
@@ -66,7 +67,7 @@ double tolerance(const Matrix& A) {
 void expectInverse(const Matrix& A) {
     const auto cholesky = SparseCholesky::factorize(A);
     ASSERT_TRUE(cholesky) << cholesky.error().text();
-    const SelectedInverse selected = cholesky->selectedInverse();
+    const SelectedInverse selected = cholesky->selectedInverse().value();
     const Eigen::MatrixXd inverse = Eigen::MatrixXd(A).inverse();
     Index known = 0;
     Index missing = 0;  // of the matrix's own entries
@@ -130,14 +131,14 @@ TEST(SelectedInverse, KnowsNothingOutsideThePattern) {
     const auto cholesky = SparseCholesky::factorize(A);
     ASSERT_TRUE(cholesky);
     EXPECT_EQ(cholesky->factorNonZeros(), 99);
-    EXPECT_TRUE(std::isnan(cholesky->selectedInverse().at(0, 49)));
+    EXPECT_TRUE(std::isnan(cholesky->selectedInverse().value().at(0, 49)));
 }
 
 TEST(SelectedInverse, AgreesWithUnitVectorSolvesOfAnAdjustment) {
     const Matrix A = test::AdjustmentMatrix(300, 3, 1.0, 7).matrix();
     const auto cholesky = SparseCholesky::factorize(A);
     ASSERT_TRUE(cholesky);
-    const SelectedInverse selected = cholesky->selectedInverse();
+    const SelectedInverse selected = cholesky->selectedInverse().value();
     for (Index j = 0; j < A.cols(); j += 97) {
         const Eigen::VectorXd column = cholesky->solve(Eigen::VectorXd::Unit(A.cols(), j));
         for (Matrix::InnerIterator entry(A, j); entry; ++entry) {
@@ -167,7 +168,7 @@ TEST(SparseCholesky, ReadsTheLowerTriangleOnly) {
     const auto whole = SparseCholesky::factorize(A);
     const auto half = SparseCholesky::factorize(lower);
     ASSERT_TRUE(whole && half);
-    EXPECT_EQ(whole->selectedInverse().diagonal(), half->selectedInverse().diagonal());
+    EXPECT_EQ(whole->selectedInverse().value().diagonal(), half->selectedInverse().value().diagonal());
 }
 
 TEST(SparseCholesky, RefactorizesNewNumbersAndNewPatterns) {
@@ -177,13 +178,14 @@ TEST(SparseCholesky, RefactorizesNewNumbersAndNewPatterns) {
     ASSERT_TRUE(cholesky);
     const Matrix numbers = 3.0 * first;
     ASSERT_TRUE(cholesky->refactorize(numbers));
-    EXPECT_LE((3.0 * cholesky->selectedInverse().diagonal() - Eigen::MatrixXd(first).inverse().diagonal())
-                  .cwiseAbs()
-                  .maxCoeff(),
-              tolerance(first));
+    EXPECT_LE(
+        (3.0 * cholesky->selectedInverse().value().diagonal() - Eigen::MatrixXd(first).inverse().diagonal())
+            .cwiseAbs()
+            .maxCoeff(),
+        tolerance(first));
     const Matrix pattern = first + scattered(80, 150, random);
     ASSERT_TRUE(cholesky->refactorize(pattern));
-    EXPECT_LE((cholesky->selectedInverse().diagonal() - Eigen::MatrixXd(pattern).inverse().diagonal())
+    EXPECT_LE((cholesky->selectedInverse().value().diagonal() - Eigen::MatrixXd(pattern).inverse().diagonal())
                   .cwiseAbs()
                   .maxCoeff(),
               tolerance(pattern));
@@ -196,7 +198,7 @@ TEST(SparseCholesky, SameBytesOnAnyThread) {
     for (Eigen::VectorXd& diagonal : diagonals) {
         threads.emplace_back([&] {
             const auto cholesky = SparseCholesky::factorize(A);
-            if (cholesky) diagonal = cholesky->selectedInverse().diagonal();
+            if (cholesky) diagonal = cholesky->selectedInverse().value().diagonal();
         });
     }
     for (std::thread& thread : threads) thread.join();
@@ -231,6 +233,24 @@ TEST(SparseCholesky, RefusesWhatDoesNotDetermineItsUnknowns) {
     EXPECT_FALSE(SparseCholesky::factorize(not_finite.sparseView()));
 }
 
+TEST(SparseCholesky, StopsWhenAskedTo) {
+    const Matrix A = test::AdjustmentMatrix(100, 1, 1.0, 12).matrix();
+    std::stop_source source;
+    auto cholesky = SparseCholesky::factorize(A, source.get_token());
+    ASSERT_TRUE(cholesky);
+    ASSERT_TRUE(cholesky->selectedInverse(source.get_token()));
+    source.request_stop();
+    const auto inverse = cholesky->selectedInverse(source.get_token());
+    ASSERT_FALSE(inverse);
+    EXPECT_EQ(inverse.error().kind, ErrorKind::Cancelled);
+    const auto factorized = SparseCholesky::factorize(A, source.get_token());
+    ASSERT_FALSE(factorized);
+    EXPECT_EQ(factorized.error().kind, ErrorKind::Cancelled);
+    const auto again = cholesky->refactorize(A, source.get_token());
+    ASSERT_FALSE(again);
+    EXPECT_EQ(again.error().kind, ErrorKind::Cancelled);
+}
+
 TEST(SparseCholesky, AcceptsWeaklyDeterminedUnknowns) {
     // A level known to 1e5 times worse than the differences: pivots lose ten digits, not all.
     Eigen::MatrixXd levels = 1e-10 * Eigen::MatrixXd::Identity(30, 30);
@@ -242,7 +262,7 @@ TEST(SparseCholesky, AcceptsWeaklyDeterminedUnknowns) {
     const auto cholesky = SparseCholesky::factorize(levels.sparseView());
     ASSERT_TRUE(cholesky) << cholesky.error().text();
     // The level's variance is 1e10 / 30; the condition number 4e10 leaves five digits.
-    EXPECT_NEAR(cholesky->selectedInverse().at(0, 0) * 30e-10, 1.0, 1e-4);
+    EXPECT_NEAR(cholesky->selectedInverse().value().at(0, 0) * 30e-10, 1.0, 1e-4);
 }
 
 }  // namespace

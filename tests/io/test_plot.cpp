@@ -160,6 +160,40 @@ TEST(Plot, ASingleValueIsABarFromZero) {
     EXPECT_NEAR(bars[0].number("y") - reference[0].number("y1"), 0.5 * bars[0].number("height"), 0.21);
 }
 
+TEST(Plot, ASingleValueIsAMarkOnALogarithmicAxis) {
+    const Drawing drawing(one({.y = {.logarithmic = true},
+                               .samples = {{.name = "a", .values = {2.0}}, {.name = "b", .values = {4.0}}}}));
+    for (const Element& box : drawing.withClass("box")) EXPECT_LT(box.number("height"), 0.11);
+    EXPECT_EQ(drawing.withClass("median").size(), 2U);
+}
+
+std::vector<std::string> labelsOf(const Drawing& drawing) {
+    std::vector<std::string> labels;
+    const std::string open = "class=\"tick\"";
+    for (std::size_t at = 0; (at = drawing.text.find(open, at)) != std::string::npos;) {
+        at = drawing.text.find('>', at) + 1;
+        labels.push_back(drawing.text.substr(at, drawing.text.find('<', at) - at));
+    }
+    return labels;
+}
+
+TEST(Plot, ShortLogarithmicAxesAreLabelledInEachDecade) {
+    const Drawing drawing(
+        one({.y = {.logarithmic = true}, .samples = {{.name = "a", .values = {0.04, 0.06, 0.3, 0.4}}}}));
+    EXPECT_THAT(labelsOf(drawing), testing::ElementsAre("0.05", "0.1", "0.2", "a"));
+}
+
+TEST(Plot, WholeNumbersHaveNoHalves) {
+    const std::vector<PlotSeries> series{{.points = {{101, 1}, {102, 2}}, .look = SeriesLook::Points}};
+    const std::pair range{100.5, 102.5};
+    const auto labels = [&](bool whole) {
+        return labelsOf(Drawing(one({.x = {.whole_numbers = whole, .range = range}, .series = series})));
+    };
+    EXPECT_THAT(labels(false), testing::Contains("101.4"));
+    EXPECT_THAT(labels(true), testing::Contains("101"));
+    EXPECT_THAT(labels(true), testing::Not(testing::Contains("101.4")));
+}
+
 TEST(Plot, EqualScalesMakeASquareOfASquare) {
     const Drawing drawing(one({.x = {.range = std::pair{0.0, 10.0}},
                                .y = {.range = std::pair{0.0, 10.0}},

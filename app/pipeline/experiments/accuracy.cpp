@@ -179,6 +179,7 @@ Result<ExperimentReport> runAccuracy(const ExperimentOptions& options, Progress&
         PlotPanel panel{
             .title = fmt::format("faults {}, {}", name(group.front().faults), tiesText(group.front().ties)),
             .x = {.label = "seed",
+                  .whole_numbers = true,
                   .range = std::pair{static_cast<double>(first_seed) - 0.5,
                                      static_cast<double>(first_seed + surveys) - 0.5}},
             .y = {.label = "check point error over floor", .logarithmic = true}};

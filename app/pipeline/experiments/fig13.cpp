@@ -108,10 +108,8 @@ Result<ExperimentReport> runFig13(const ExperimentOptions& options, Progress& pr
                                        paperTime(tuners[t])});
         times.samples.push_back(
             {.name = tuners[t].name, .values = seconds, .colour = static_cast<int>(t % 8)});
-        if (!reached.empty()) {
-            counts.samples.push_back(
-                {.name = tuners[t].name, .values = reached, .colour = static_cast<int>(t % 8)});
-        }
+        counts.samples.push_back(
+            {.name = tuners[t].name, .values = reached, .colour = static_cast<int>(t % 8)});
     }
     if (!options.quick) {
         // The paper's own budget, once.
@@ -129,8 +127,7 @@ Result<ExperimentReport> runFig13(const ExperimentOptions& options, Progress& pr
                                        {},
                                        "22264.5 s"});
     }
-    report.plot.panels = {std::move(times)};
-    if (!counts.samples.empty()) report.plot.panels.push_back(std::move(counts));
+    report.plot.panels = {std::move(times), std::move(counts)};
     report.plot.columns = 2;
     report.notes = {
         fmt::format("{} repeats, population {}, {} evaluations each (the paper: 30, population 100, 1000 "

@@ -1,0 +1,259 @@
+#include "fusion/joint_adjustment.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fusion/fuse_survey.hpp"
+#include "tests/fusion/measured_survey.hpp"
+
+namespace terrawalk {
+namespace {
+
+SimulationOptions smallField(std::uint64_t seed) {
+    SimulationOptions options;
+    options.seed = seed;
+    options.area_east_m = 15.0;
+    options.area_north_m = 15.0;
+    options.line_spacing_m = 2.0;
+    options.fixed_point_runs = 2;
+    options.fixed_point_epochs = 120;
+    options.area_epochs = 1200;
+    options.control_stops = 2;
+    options.check_points = 12;
+    return options;
+}
+
+FusedSurvey fused(const Survey& survey, const FusionOptions& options = {}) {
+    SilentProgress progress;
+    auto result = fuseSurvey(survey, options, progress, {});
+    if (!result) throw std::runtime_error(result.error().text());
+    return std::move(*result);
+}
+
+const FusedRun& runOf(const FusedSurvey& survey, const std::string& id) {
+    return *std::find_if(survey.runs.begin(), survey.runs.end(),
+                         [&](const FusedRun& run) { return run.trajectory.run_id == id; });
+}
+
+double worstDistance(const Trajectory& a, const Trajectory& b) {
+    EXPECT_EQ(a.epochs.size(), b.epochs.size());
+    double worst = 0.0;
+    for (std::size_t i = 0; i < std::min(a.epochs.size(), b.epochs.size()); ++i) {
+        worst = std::max(worst, (a.epochs[i].position_enu_m - b.epochs[i].position_enu_m).norm());
+    }
+    return worst;
+}
+
+double rmsError(const FusedSurvey& survey, const SimulatedSurvey& simulated, std::size_t run, bool up) {
+    double squares = 0.0;
+    const auto& epochs = survey.runs[run].trajectory.epochs;
+    for (std::size_t i = 0; i < epochs.size(); ++i) {
+        const Eigen::Vector3d error =
+            epochs[i].position_enu_m - simulated.truth[run].epochs[i].position_enu_m;
+        squares += up ? error.z() * error.z() : error.head<2>().squaredNorm();
+    }
+    return std::sqrt(squares / static_cast<double>(epochs.size()));
+}
+
+std::size_t downWeighted(const FusedSurvey& survey, const std::string& source) {
+    for (const NoiseFactor& noise : survey.adjustment.value().noise) {
+        if (noise.source == source) return noise.down_weighted;
+    }
+    ADD_FAILURE() << "no " << source;
+    return 0;
+}
+
+Survey withOriginMoved(const Survey& survey, const Eigen::Vector3d& origin_enu_m) {
+    Survey moved = survey;
+    const LocalFrame before = survey.frame();
+    moved.zero_point = before.toGeodetic(origin_enu_m);
+    const LocalFrame after = moved.frame();
+    moved.marks.push_back({"OLD", Eigen::Vector3d::Zero(), 0.0, 0.0, MarkRole::Control});
+    for (ControlMark& mark : moved.marks) mark.enu_m = after.toEnu(before.toGeodetic(mark.enu_m));
+    const auto renamed = [](std::optional<std::string>& name) {
+        if (name == std::string(kZeroMark)) name = "OLD";
+    };
+    for (terrawalk::Run& run : moved.runs) {
+        renamed(run.start);
+        renamed(run.target);
+        for (Stop& stop : run.stops) {
+            if (stop.point == kZeroMark) stop.point = "OLD";
+        }
+    }
+    return moved;
+}
+
+bool sameBytes(const FusedSurvey& a, const FusedSurvey& b) {
+    for (std::size_t r = 0; r < a.runs.size(); ++r) {
+        for (std::size_t i = 0; i < a.runs[r].trajectory.epochs.size(); ++i) {
+            const TrajectoryEpoch& x = a.runs[r].trajectory.epochs[i];
+            const TrajectoryEpoch& y = b.runs[r].trajectory.epochs[i];
+            if (std::memcmp(x.position_enu_m.data(), y.position_enu_m.data(), 3 * sizeof(double)) != 0 ||
+                std::memcmp(x.covariance.data(), y.covariance.data(), 36 * sizeof(double)) != 0) {
+                return false;
+            }
+        }
+    }
+    return a.adjustment->misfit_after_m == b.adjustment->misfit_after_m;
+}
+
+TEST(JointAdjustment, AnyNumberOfThreadsGivesTheSameBytes) {
+    const SimulatedSurvey simulated = simulatedSurvey(smallField(1));
+    std::vector<FusedSurvey> results;
+    for (const std::size_t threads : {1U, 4U}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        tbb::task_arena arena(static_cast<int>(threads));
+        arena.execute([&] { results.push_back(fused(simulated.survey)); });
+    }
+    EXPECT_TRUE(sameBytes(results[0], results[1]));
+}
+
+TEST(JointAdjustment, TheOrderOfTheRunsDoesNotMatter) {
+    const SimulatedSurvey simulated = simulatedSurvey(smallField(1));
+    Survey reversed = simulated.survey;
+    std::reverse(reversed.runs.begin(), reversed.runs.end());
+    FusionOptions options;
+    for (const bool crossovers : {false, true}) {
+        options.joint.use_crossovers = crossovers;
+        const FusedSurvey forward = fused(simulated.survey, options);
+        const FusedSurvey backward = fused(reversed, options);
+        for (const FusedRun& run : forward.runs) {
+            const Trajectory& other = runOf(backward, run.trajectory.run_id).trajectory;
+            // Without crossovers only rounding is left. The places where passes are compared lie along the
+            // pass that comes first, so other ones are picked; the heights stay well within their sigma.
+            if (!crossovers) {
+                EXPECT_LT(worstDistance(run.trajectory, other), 1e-9);
+            }
+            for (std::size_t i = 0; crossovers && i < other.epochs.size(); ++i) {
+                const TrajectoryEpoch& epoch = run.trajectory.epochs[i];
+                ASSERT_LT((epoch.position_enu_m - other.epochs[i].position_enu_m).norm(),
+                          0.6 * std::sqrt(epoch.covariance(2, 2)))
+                    << run.trajectory.run_id << ' ' << i;
+            }
+        }
+    }
+}
+
+// The same survey told from another zero point, where the first one is a mark like others.
+TEST(JointAdjustment, TheZeroPointMayLieAnywhere) {
+    const SimulatedSurvey simulated = simulatedSurvey(smallField(1));
+    const Survey here = withOriginMoved(simulated.survey, Eigen::Vector3d::Zero());
+    const Survey there = withOriginMoved(simulated.survey, {1000.0, -500.0, 10.0});
+    const FusedSurvey near = fused(here);
+    const FusedSurvey far = fused(there);
+    // 1.1 km away up and north differ by 1.8e-4 rad: 5 mm over the field of 30 m in what counts as level and
+    // as north to the models, whose own errors are some tenth of that.
+    for (std::size_t r = 0; r < near.runs.size(); ++r) {
+        for (std::size_t i = 0; i < near.runs[r].trajectory.epochs.size(); ++i) {
+            const Eigen::Vector3d back_enu_m =
+                here.frame().toEnu(there.frame().toGeodetic(far.runs[r].trajectory.epochs[i].position_enu_m));
+            ASSERT_LT((back_enu_m - near.runs[r].trajectory.epochs[i].position_enu_m).norm(), 0.002);
+        }
+    }
+}
+
+TEST(JointAdjustment, PerfectSensorsLeaveTheTrackAsItWas) {
+    for (const SimulatedTerrain terrain : {SimulatedTerrain::Ramp, SimulatedTerrain::TerracedOrchard}) {
+        SimulationOptions options = smallField(2);
+        options.terrain = terrain;
+        options.gnss = GnssMode::Rtk;
+        options.faults = FaultLevel::None;
+        options.noise_scale = 0.0;
+        const SimulatedSurvey perfect = simulatedSurvey(options);
+        const FusedSurvey survey = fused(perfect.survey);
+        for (std::size_t r = 0; r < survey.runs.size(); ++r) {
+            // The array rises and falls by 0.012 m with each step, 0.0085 m RMS, too fast for knots a second
+            // apart and too little for the sigma of a height; the plan has no such part.
+            EXPECT_LT(worstDistance(survey.runs[r].trajectory, perfect.truth[r]), 0.025);
+            EXPECT_LT(rmsError(survey, perfect, r, true), 0.012);
+            EXPECT_LT(rmsError(survey, perfect, r, false), 0.004);
+        }
+    }
+}
+
+TEST(JointAdjustment, CrossoversHalveTheHeightErrorOfABadDay) {
+    double with_m2 = 0.0;
+    double without_m2 = 0.0;
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        SimulationOptions bad_day = smallField(seed);
+        bad_day.faults = FaultLevel::Severe;
+        const SimulatedSurvey simulated = simulatedSurvey(bad_day);
+        FusionOptions options;
+        const FusedSurvey with = fused(simulated.survey, options);
+        options.joint.use_crossovers = false;
+        const FusedSurvey without = fused(simulated.survey, options);
+        EXPECT_LT(with.adjustment->misfit_after_m, with.adjustment->misfit_before_m);
+        EXPECT_EQ(without.adjustment->crossovers, 0U);
+        const std::size_t area = simulated.survey.runs.size() - 1;
+        with_m2 += std::pow(rmsError(with, simulated, area, true), 2);
+        without_m2 += std::pow(rmsError(without, simulated, area, true), 2);
+    }
+    EXPECT_LT(with_m2, 0.5 * without_m2);
+}
+
+// Eight seconds of ranges cut short by a hand: false ground that crosses true ground.
+TEST(JointAdjustment, FalseGroundIsDownWeightedAndCounted) {
+    SimulationOptions options = smallField(1);
+    options.faults = FaultLevel::None;
+    const SimulatedSurvey simulated = simulatedSurvey(options);
+    Survey bad = simulated.survey;
+    std::vector<double>& range_m = bad.runs.back().log.column(Channel::Range);
+    for (std::size_t i = 700; i < 740; ++i) range_m[i] -= 0.8;
+    const FusedSurvey good = fused(simulated.survey);
+    const FusedSurvey worse = fused(bad);
+    const auto downWeightedOfGround = [](const FusedSurvey& survey) {
+        return downWeighted(survey, "crossovers") + downWeighted(survey, "ground climb");
+    };
+    EXPECT_GT(downWeightedOfGround(worse), downWeightedOfGround(good));
+    double worst_m = 0.0;
+    for (std::size_t i = 0; i < range_m.size(); ++i) {
+        worst_m = std::max(worst_m, std::abs(good.runs.back().trajectory.epochs[i].position_enu_m.z() -
+                                             worse.runs.back().trajectory.epochs[i].position_enu_m.z()));
+    }
+    EXPECT_LT(worst_m, 0.5 * 0.8);
+}
+
+// Asks to stop at its n-th report of the adjustment and counts what comes after.
+class StopAt final : public Progress {
+  public:
+    explicit StopAt(int n) : left_(n) {}
+    void report(double, std::string_view step) override {
+        if (step != "adjusting all runs") return;
+        if (source.stop_requested()) ++after;
+        if (left_-- == 0) source.request_stop();
+    }
+    void message(Severity, std::string_view) override {}
+    std::stop_source source;
+    int after = 0;
+
+  private:
+    int left_;
+};
+
+TEST(JointAdjustment, StopsInAnyRoundWithoutAnother) {
+    const SimulatedSurvey simulated = simulatedSurvey(smallField(1));
+    const int rounds = FusionOptions{}.joint.rounds + 2;
+    for (int n = 0; n < rounds; ++n) {
+        StopAt progress(n);
+        const auto result = fuseSurvey(simulated.survey, {}, progress, progress.source.get_token());
+        ASSERT_FALSE(result) << n;
+        EXPECT_EQ(result.error().kind, ErrorKind::Cancelled);
+        EXPECT_EQ(progress.after, 0) << n;
+    }
+    StopAt never(rounds);
+    EXPECT_TRUE(fuseSurvey(simulated.survey, {}, never, never.source.get_token()));
+}
+
+}  // namespace
+}  // namespace terrawalk
