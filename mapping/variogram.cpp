@@ -10,7 +10,7 @@
 namespace terrawalk {
 namespace {
 
-constexpr std::size_t kCentres = 5000;
+constexpr std::size_t kCentres = 1500;
 constexpr std::size_t kClasses = 30;
 constexpr int kRanges = 40;
 constexpr int kExponents = 18;

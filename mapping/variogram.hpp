@@ -32,7 +32,7 @@ struct VariogramClass {
     std::size_t pairs = 0;
 };
 
-/// Pairs of each of up to 5000 points, spread evenly over the list, with its nearest `neighbours`, in classes
+/// Pairs of each of up to 1500 points, spread evenly over the list, with its nearest `neighbours`, in classes
 /// of equal count. Pure.
 /// @param points_m  in curve order, at different places
 [[nodiscard]] std::vector<VariogramClass> empiricalVariogram(const std::vector<Eigen::Vector3d>& points_m,
