@@ -12,12 +12,14 @@
 
 #include "app/cli/interrupt.hpp"
 #include "app/cli/simulate_options.hpp"
+#include "app/cli/surface_options.hpp"
 #include "app/cli/terminal_progress.hpp"
 #include "app/cli/tune_options.hpp"
 #include "app/pipeline/compare.hpp"
 #include "app/pipeline/experiment.hpp"
 #include "app/pipeline/jobs.hpp"
 #include "app/pipeline/json_output.hpp"
+#include "app/pipeline/surface.hpp"
 #include "app/pipeline/tune_file.hpp"
 #include "app/pipeline/tune_jobs.hpp"
 #include "app/pipeline/version.hpp"
@@ -261,6 +263,19 @@ int runExperiments(const ExperimentArguments& arguments, const Common& common, T
     return 0;
 }
 
+int runSurface(const SurfaceRequest& request, const Common& common, TerminalProgress& progress,
+               const std::stop_token& stop) {
+    const auto report = makeSurface(request, progress, stop);
+    if (!report) return fail(report.error(), common, progress);
+    progress.clear();
+    if (common.json) {
+        fmt::print("{}", toJson(*report));
+    } else if (!common.quiet) {
+        fmt::print("{}", toText(*report));
+    }
+    return 0;
+}
+
 int runConfigPrint(const ProcessArguments& arguments, const Common& common, TerminalProgress& progress) {
     const auto config = configuration(arguments);
     if (!config) return fail(config.error(), common, progress);
@@ -367,6 +382,12 @@ int run(int argc, char** argv) {
         ->capture_default_str();
     addCommon(*experiment_command, common);
 
+    SurfaceRequest surface;
+    CLI::App* surface_command = app.add_subcommand(
+        "surface", "Make a DEM from ground points of any origin, by the method that fits them");
+    addSurfaceOptions(*surface_command, surface);
+    addCommon(*surface_command, common);
+
     CLI::App* config_command = app.add_subcommand("config", "Show and check parameters");
     config_command->require_subcommand(1);
     CLI::App* print_command = config_command->add_subcommand("print", "Print all parameters as JSON");
@@ -394,6 +415,7 @@ int run(int argc, char** argv) {
     if (inspect_command->parsed()) return runInspect(inspected, common, progress, interrupt.token());
     if (simulate_command->parsed()) return runSimulate(simulate, common, progress, interrupt.token());
     if (experiment_command->parsed()) return runExperiments(experiment, common, progress, interrupt.token());
+    if (surface_command->parsed()) return runSurface(surface, common, progress, interrupt.token());
     if (print_command->parsed()) return runConfigPrint(process, common, progress);
     if (describe_command->parsed()) return runConfigDescribe(common);
     return runConfigValidate(validated, common, progress);
