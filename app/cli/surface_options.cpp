@@ -41,6 +41,11 @@ void addSurfaceOptions(CLI::App& command, SurfaceRequest& r) {
         ->delimiter(',')
         ->expected(4)
         ->type_name("X,Y,X,Y");
+    command
+        .add_option(
+            "--breaklines", r.breaklines,
+            "Lines that linear and clough-tocher follow: a vector file, kind hard, soft, boundary or hole")
+        ->type_name("FILE");
     command.add_option("--longest-edge", r.longest_edge,
                        "Triangles with a longer edge count as gap and stay empty [from the points]");
     command.add_option("--crs", r.crs, "CRS of the points, e.g. EPSG:2994 [the file's own]");

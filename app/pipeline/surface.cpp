@@ -5,14 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "app/pipeline/memory_need.hpp"
 #include "app/pipeline/version.hpp"
 #include "io/output_folder.hpp"
+#include "io/read_breaklines.hpp"
 #include "io/read_points.hpp"
 #include "io/write_products.hpp"
+#include "mapping/constrained_tin.hpp"
 #include "mapping/delaunay_tin.hpp"
 #include "mapping/gridding.hpp"
 
@@ -32,6 +35,12 @@ Result<void> checkRequest(const SurfaceRequest& request) {
     if (fs::equivalent(request.points, request.output, error) ||
         fs::equivalent(request.points, beside(request.output, ".json"), error)) {
         return usageError("the output would replace the points", "choose another name for it");
+    }
+    const bool follows = !request.method || *request.method == InterpolationMethod::Linear ||
+                         *request.method == InterpolationMethod::CloughTocher;
+    if (!request.breaklines.empty() && !follows) {
+        return usageError(fmt::format("method {} cannot follow breaklines", name(*request.method)),
+                          "use linear or clough-tocher");
     }
     if (!(request.resolution >= 0.0) || !std::isfinite(request.resolution)) {
         return usageError("the resolution may not be below zero");
@@ -78,33 +87,81 @@ Result<CrossValidation> judge(const SurfaceRequest& request, const ScatteredPoin
     CrossValidationOptions options;
     options.seed = request.seed;
     // A method that was named is judged beside the plain one.
-    if (request.method) {
+    if (!request.breaklines.empty() && !request.method) {
+        options.methods = {InterpolationMethod::Linear, InterpolationMethod::CloughTocher};
+    } else if (request.method) {
         options.methods = {InterpolationMethod::Linear};
         if (*request.method != InterpolationMethod::Linear) options.methods.push_back(*request.method);
     }
     return crossValidate(points.points, points.sigmas, request.interpolation, options, progress, stop);
 }
 
-Result<GridGeometry> geometryOf(const SurfaceRequest& request, const DelaunayTin& tin) {
+/// The triangles that count as ground, and with breaklines what the methods need of them.
+struct Ground {
+    TriangleMesh mesh;
+    double longest_edge = 0.0;
+    double area = 0.0;
+    std::shared_ptr<const ConstrainedTin> constrained;  ///< null without breaklines
+};
+
+Result<std::vector<Breakline>> breaklinesOf(const SurfaceRequest& request, const CoordinateSystem& crs,
+                                            Progress& progress, const std::stop_token& stop) {
+    auto file = readBreaklines(request.breaklines, progress, stop);
+    if (!file) return tl::unexpected(file.error());
+    if (!file->crs.empty()) {
+        const auto own = describeCrs(file->crs);
+        if (!own) return tl::unexpected(own.error());
+        if (own->name != crs.name) {
+            return badData(fmt::format("the breaklines are in {}, the points in {}", own->name, crs.name),
+                           request.breaklines, 0, "bring both to one CRS; --crs names that of the points");
+        }
+    }
+    return std::move(file->lines);
+}
+
+Result<Ground> groundOf(const SurfaceRequest& request, const ScatteredPoints& points, SurfaceOutcome& report,
+                        Progress& progress, const std::stop_token& stop) {
+    if (request.breaklines.empty()) {
+        const auto tin = DelaunayTin::build(points.points, {request.longest_edge}, progress, stop);
+        if (!tin) return tl::unexpected(tin.error());
+        return Ground{tin->mesh(), tin->longestEdge_m(), tin->area_m2(), nullptr};
+    }
+    const auto lines = breaklinesOf(request, report.crs, progress, stop);
+    if (!lines) return tl::unexpected(lines.error());
+    report.breaklines_used = lines->size();
+    ConstrainedTinOptions options;
+    options.longest_edge_m = request.longest_edge;
+    auto tin = buildConstrainedTin(points.points, *lines, options, progress, stop);
+    if (!tin) return tl::unexpected(tin.error());
+    if (tin->merged > 0) {
+        report.notes.push_back(fmt::format("{} points lay within {} {} of another or of a breakline",
+                                           tin->merged, options.near_m, report.crs.unit.symbol));
+    }
+    const auto shared = std::make_shared<const ConstrainedTin>(std::move(*tin));
+    return Ground{shared->groundMesh(), shared->longest_edge_m, shared->area_m2, shared};
+}
+
+Result<GridGeometry> geometryOf(const SurfaceRequest& request, const Ground& ground) {
     const double cell = request.resolution > 0.0
                             ? request.resolution
-                            : suggestCellSize(tin.area_m2(), tin.mesh().vertices_m.size());
-    if (!request.extent) return gridCovering(tin.mesh(), cell);
+                            : suggestCellSize(ground.area, ground.mesh.vertices_m.size());
+    if (!request.extent) return gridCovering(ground.mesh, cell);
     const auto& [west, south, east, north] = *request.extent;
     return gridCovering(GridExtent{west, south, east, north}, cell);
 }
 
 Result<InterpolatedGrid> gridBy(const SurfaceRequest& request, const ScatteredPoints& points,
-                                InterpolationMethod method, const DelaunayTin& tin,
+                                InterpolationMethod method, const Ground& ground,
                                 const GridGeometry& geometry, Progress& progress,
                                 const std::stop_token& stop) {
     PartialProgress masking(progress, 0.0, 0.1);
-    auto within = rasterize(tin.mesh(), geometry, masking, stop);
+    auto within = rasterize(ground.mesh, geometry, masking, stop);
     if (!within) return tl::unexpected(within.error());
     if (method == InterpolationMethod::Linear) return InterpolatedGrid{std::move(*within), {}};
     PartialProgress fitting(progress, 0.1, 0.4);
-    const auto surface =
-        fitInterpolator(method, points.points, points.sigmas, request.interpolation, fitting, stop);
+    const auto surface = ground.constrained ? fitInterpolator(method, ground.constrained)
+                                            : fitInterpolator(method, points.points, points.sigmas,
+                                                              request.interpolation, fitting, stop);
     if (!surface) return tl::unexpected(surface.error());
     PartialProgress gridding(progress, 0.4, 1.0);
     return interpolateGrid(**surface, geometry, within->heights_m, gridding, stop);
@@ -217,11 +274,11 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
     report.points_sha256 = std::move(*hash);
 
     PartialProgress triangulating(progress, 0.2, 0.3);
-    const auto tin = DelaunayTin::build(points->points, {request.longest_edge}, triangulating, stop);
-    if (!tin) return tl::unexpected(tin.error());
-    report.longest_edge = tin->longestEdge_m();
+    const auto ground = groundOf(request, *points, report, triangulating, stop);
+    if (!ground) return tl::unexpected(ground.error());
+    report.longest_edge = ground->longest_edge;
     report.points_used = points->points.size();
-    const auto geometry = geometryOf(request, *tin);
+    const auto geometry = geometryOf(request, *ground);
     if (!geometry) return tl::unexpected(geometry.error());
     report.geometry = *geometry;
 
@@ -245,9 +302,12 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
         if (!validation) return tl::unexpected(validation.error());
         if (!request.method) report.method = validation->ranking.front();
         report.validation = std::move(*validation);
+        if (!request.breaklines.empty()) {
+            report.notes.emplace_back("the cross-validation is of the points without the breaklines");
+        }
     }
     PartialProgress gridding(progress, 0.7, 0.9);
-    const auto grid = gridBy(request, *points, report.method, *tin, *geometry, gridding, stop);
+    const auto grid = gridBy(request, *points, report.method, *ground, *geometry, gridding, stop);
     if (!grid) return tl::unexpected(grid.error());
     summarize(grid->heights, report);
     progress.report(0.9, "writing");
@@ -283,6 +343,7 @@ std::string toJson(const SurfaceOutcome& report) {
         {"points_sha256", report.points_sha256},
         {"points_in_file", report.points_in_file},
         {"points_used", report.points_used},
+        {"breaklines", report.breaklines_used},
         {"crs", report.crs.name},
         {"vertical_datum", report.crs.vertical_datum},
         {"unit", report.crs.unit.symbol},
@@ -295,7 +356,8 @@ std::string toJson(const SurfaceOutcome& report) {
           {"columns", g.columns},
           {"rows", g.rows},
           {"cells_with_height", report.cells_with_height}}},
-        {"longest_edge", report.longest_edge},
+        {"longest_edge", std::isfinite(report.longest_edge) ? nlohmann::ordered_json(report.longest_edge)
+                                                            : nlohmann::ordered_json(nullptr)},
         {"least_height", report.least_height},
         {"greatest_height", report.greatest_height},
         {"seed", report.request.seed},

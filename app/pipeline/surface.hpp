@@ -22,6 +22,7 @@ struct SurfaceRequest {
     std::optional<InterpolationMethod> method;    ///< nothing: the best by cross-validation
     double resolution = 0.0;                      ///< 0: from the point spacing
     std::optional<std::array<double, 4>> extent;  ///< xmin, ymin, xmax, ymax; nothing: all points
+    std::filesystem::path breaklines;             ///< vector file; empty: none
     double longest_edge = 0.0;                    ///< of triangles that count as ground; 0: from the points
     std::string crs;                              ///< where the file has none; empty: none
     std::string unit;                             ///< "m", "ft", "us-ft"; empty: by CRS or file, else metre
@@ -37,6 +38,7 @@ struct SurfaceOutcome {
     CoordinateSystem crs;
     std::size_t points_in_file = 0;
     std::size_t points_used = 0;
+    std::size_t breaklines_used = 0;
     InterpolationMethod method = InterpolationMethod::Linear;
     GridGeometry geometry;
     double longest_edge = 0.0;
@@ -56,7 +58,7 @@ struct SurfaceOutcome {
 /// taken. Memory is told before the grid is made. Errors: as the steps; System when the memory does not
 /// suffice; Cancelled. Each file appears whole or not at all, the report last.
 [[nodiscard]] Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& progress,
-                                                std::stop_token stop);
+                                                 std::stop_token stop);
 
 [[nodiscard]] std::string toText(const SurfaceOutcome& report);
 [[nodiscard]] std::string toJson(const SurfaceOutcome& report);

@@ -72,6 +72,37 @@ TEST(Surface, ChoosesByCrossValidationAndGivesTheSameBytesAgain) {
     EXPECT_EQ(before, test::readTree(folder.path()));
 }
 
+TEST(Surface, FollowsBreaklinesOfAVectorFile) {
+    const TemporaryFolder folder;
+    writePlane(folder / "plane.csv", "x_m,y_m,z_m");
+    // A wall five metres above the plane, and a boundary about the middle.
+    writeBytes(
+        folder / "lines.geojson",
+        R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32649"}},
+"features":[{"type":"Feature","properties":{"kind":"hard"},"geometry":{"type":"LineString",
+"coordinates":[[500010,2500015.5,16],[500030,2500015.5,18]]}},
+{"type":"Feature","properties":{},"geometry":{"type":"Polygon",
+"coordinates":[[[500005,2500005],[500035,2500005],[500035,2500025],[500005,2500025],[500005,2500005]]]}}]})");
+    SurfaceRequest request;
+    request.points = folder / "plane.csv";
+    request.output = folder / "dem.tif";
+    request.breaklines = folder / "lines.geojson";
+    request.resolution = 1.0;
+    request.crs = "EPSG:32649";
+    const auto outcome = surfaceOf(request);
+    ASSERT_TRUE(outcome) << outcome.error().text();
+    EXPECT_EQ(outcome->breaklines_used, 2u);
+    EXPECT_EQ(outcome->cells_with_height, 30u * 20u);
+    EXPECT_NEAR(outcome->greatest_height, 18.0, 0.06);
+    request.crs = "EPSG:32650";
+    EXPECT_THAT(surfaceOf(request).error().text(), HasSubstr("the breaklines are in"));
+    request.method = InterpolationMethod::Kriging;
+    EXPECT_EQ(surfaceOf(request).error().kind, ErrorKind::Usage);
+    request.breaklines = request.points;
+    request.method.reset();
+    EXPECT_THAT(surfaceOf(request).error().text(), HasSubstr("no line"));
+}
+
 TEST(Surface, RefusesContradictingUnitsAndItsOwnInput) {
     const TemporaryFolder folder;
     writePlane(folder / "plane.csv", "x_ft,y_ft,z_ft");
