@@ -322,6 +322,45 @@ TEST(Variogram, FindsTheModelThatItsClassesComeFrom) {
     EXPECT_GT(fitVariogram({}).sill_m2, 0.0);
 }
 
+/// Terraces 6 m deep with risers of a metre over 0.9 m, on a slope that bends.
+double terraces(double x, double y) {
+    const double along = y + 3.0 * std::sin(x / 12.0) + 0.3 * x;
+    const double step = std::floor(along / 6.0);
+    const double t = std::clamp((along - 6.0 * step - 5.1) / 0.9, 0.0, 1.0);
+    return step + t * t * (3.0 - 2.0 * t) + 0.02 * along + 0.06 * std::sin(x / 3.0) * std::cos(y / 4.0);
+}
+
+// A hundred thousand points a third of a metre apart: the edges of terraces are what a plain TIN loses.
+TEST(SmoothMethods, LoseLessAtTheEdgesOfTerracesThanTheTin) {
+    RandomNumbers random(21);
+    const auto draw = [&](std::size_t count) {
+        Points points;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double x = random.uniform(0.0, 105.0);
+            const double y = random.uniform(0.0, 105.0);
+            points.emplace_back(x, y, terraces(x, y));
+        }
+        return points;
+    };
+    const Points points = draw(100'000);
+    Points checks = draw(5'000);
+    std::erase_if(checks, [](const Eigen::Vector3d& p) {
+        return p.head<2>().minCoeff() < 1.0 || p.head<2>().maxCoeff() > 104.0;
+    });
+    const auto rmse = [&](Method method) {
+        const auto surface = fit(method, points);
+        double squares = 0.0;
+        for (const Eigen::Vector3d& p : checks) {
+            squares += std::pow(heightAt(**surface, p.x(), p.y()) - p.z(), 2);
+        }
+        return std::sqrt(squares / static_cast<double>(checks.size()));
+    };
+    const double tin = rmse(Method::Linear);
+    EXPECT_GT(tin, 0.01);
+    EXPECT_LT(rmse(Method::SibsonC1), 0.85 * tin);
+    EXPECT_LT(rmse(Method::Kriging), 0.75 * tin);
+}
+
 TEST(BSpline, ComesCloserToItsPointsAsTheLatticeGetsFiner) {
     const auto waves = [](double x, double y) {
         return std::sin((x - kUtmOrigin_m.x()) / 7.0) + std::cos((y - kUtmOrigin_m.y()) / 9.0);
