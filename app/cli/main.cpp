@@ -276,6 +276,15 @@ int runSurface(const SurfaceRequest& request, const Common& common, TerminalProg
     return 0;
 }
 
+int runVolume(const VolumeRequest& request, const Common& common, TerminalProgress& progress,
+              const std::stop_token& stop) {
+    const auto outcome = measureVolume(request, progress, stop);
+    if (!outcome) return fail(outcome.error(), common, progress);
+    progress.clear();
+    fmt::print("{}", common.json ? toJson(*outcome) : toText(*outcome));
+    return 0;
+}
+
 int runConfigPrint(const ProcessArguments& arguments, const Common& common, TerminalProgress& progress) {
     const auto config = configuration(arguments);
     if (!config) return fail(config.error(), common, progress);
@@ -388,6 +397,12 @@ int run(int argc, char** argv) {
     addSurfaceOptions(*surface_command, surface);
     addCommon(*surface_command, common);
 
+    VolumeRequest volume;
+    CLI::App* volume_command = app.add_subcommand(
+        "volume", "Tell the volume between a DEM and a plane or another DEM, with its error");
+    addVolumeOptions(*volume_command, volume);
+    addCommon(*volume_command, common);
+
     CLI::App* config_command = app.add_subcommand("config", "Show and check parameters");
     config_command->require_subcommand(1);
     CLI::App* print_command = config_command->add_subcommand("print", "Print all parameters as JSON");
@@ -416,6 +431,7 @@ int run(int argc, char** argv) {
     if (simulate_command->parsed()) return runSimulate(simulate, common, progress, interrupt.token());
     if (experiment_command->parsed()) return runExperiments(experiment, common, progress, interrupt.token());
     if (surface_command->parsed()) return runSurface(surface, common, progress, interrupt.token());
+    if (volume_command->parsed()) return runVolume(volume, common, progress, interrupt.token());
     if (print_command->parsed()) return runConfigPrint(process, common, progress);
     if (describe_command->parsed()) return runConfigDescribe(common);
     return runConfigValidate(validated, common, progress);

@@ -60,4 +60,27 @@ void addSurfaceOptions(CLI::App& command, SurfaceRequest& r) {
     command.add_option("--seed", r.seed, "Of the cross-validation")->capture_default_str();
 }
 
+void addVolumeOptions(CLI::App& command, VolumeRequest& r) {
+    command.add_option("dem", r.dem, "Raster of heights, e.g. of `terrawalk surface`")->required();
+    CLI::Option* const plane =
+        command.add_option("--plane", r.plane, "Height of a level plane to compare with");
+    command.add_option("--against", r.against, "Another DEM on the same cells to compare with")
+        ->type_name("FILE")
+        ->excludes(plane);
+    command.add_option("--uncertainty", r.uncertainty, "Raster of the DEM's standard errors")
+        ->type_name("FILE");
+    command.add_option("--against-uncertainty", r.against_uncertainty, "The same of the other DEM")
+        ->type_name("FILE");
+    command.add_option("--sigma", r.sigma, "Standard error of a height where no raster tells it")
+        ->capture_default_str();
+    command
+        .add_option("--correlation-range", r.correlation_range,
+                    "Distance beyond which height errors are independent; 0: each cell on its own")
+        ->capture_default_str();
+    command
+        .add_option("--common-sigma", r.common_sigma,
+                    "Standard error of what all cells share, such as a datum")
+        ->capture_default_str();
+}
+
 }  // namespace terrawalk

@@ -1,10 +1,13 @@
 #include <gmock/gmock.h>
 
 #include <fmt/format.h>
+
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/pipeline/memory_need.hpp"
 #include "app/pipeline/surface.hpp"
+#include "app/pipeline/volume_job.hpp"
 #include "tests/support/random_numbers.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -120,6 +123,55 @@ TEST(Surface, RefusesContradictingUnitsAndItsOwnInput) {
     request.output = request.points;
     EXPECT_EQ(surfaceOf(request).error().kind, ErrorKind::Usage);
     EXPECT_FALSE(std::filesystem::exists(folder / "dem.tif"));
+}
+
+Result<VolumeOutcome> volumeOfFile(const VolumeRequest& request) {
+    SilentProgress progress;
+    return measureVolume(request, progress, {});
+}
+
+// A plane that rises by 0.1 to the east over 20 x 10 cells: 20 * 10 * (11.5 - 11) above the level of 11.
+TEST(Volume, BetweenAPlaneAndADemOfSurface) {
+    const TemporaryFolder folder;
+    writePlane(folder / "plane.csv", "x_m,y_m,z_m");
+    SurfaceRequest surface;
+    surface.points = folder / "plane.csv";
+    surface.output = folder / "dem.tif";
+    surface.method = InterpolationMethod::Linear;
+    surface.cross_validate = false;
+    surface.extent = {500'005.0, 2'500'010.0, 500'025.0, 2'500'020.0};
+    surface.resolution = 1.0;
+    ASSERT_TRUE(surfaceOf(surface));
+    VolumeRequest request;
+    request.dem = folder / "dem.tif";
+    request.plane = 11.0;
+    request.sigma = 0.1;
+    const auto outcome = volumeOfFile(request);
+    ASSERT_TRUE(outcome) << outcome.error().text();
+    EXPECT_NEAR(outcome->volume.net_m3, 100.0, 1e-3);
+    EXPECT_NEAR(outcome->volume.net_sigma_m3, 0.1 * std::sqrt(200.0), 1e-6);
+    EXPECT_NEAR(outcome->volume.above.volume_m3 - outcome->volume.below.volume_m3, 100.0, 1e-3);
+
+    request.plane.reset();
+    request.against = request.dem;
+    const auto same = volumeOfFile(request);
+    ASSERT_TRUE(same) << same.error().text();
+    EXPECT_EQ(same->volume.net_m3, 0.0);
+    EXPECT_NEAR(same->volume.net_sigma_m3, 0.1 * std::sqrt(2.0 * 200.0), 1e-5);
+
+    surface.output = folder / "other.tif";
+    surface.resolution = 2.0;
+    ASSERT_TRUE(surfaceOf(surface));
+    request.against = folder / "other.tif";
+    EXPECT_THAT(volumeOfFile(request).error().text(), HasSubstr("cells are not those"));
+    request.plane = 1.0;
+    EXPECT_EQ(volumeOfFile(request).error().kind, ErrorKind::Usage);
+    request.against.clear();
+    request.sigma = -1.0;
+    EXPECT_EQ(volumeOfFile(request).error().kind, ErrorKind::Usage);
+    request.sigma = 0.0;
+    request.dem = surface.points;
+    EXPECT_EQ(volumeOfFile(request).error().kind, ErrorKind::BadData);
 }
 
 TEST(MemoryNeed, IsRefusedWithAResolutionThatFits) {
