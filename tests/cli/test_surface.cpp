@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/cli_support.hpp"
@@ -41,6 +42,26 @@ TEST(SurfaceCommand, BeatsThePlainTinOnRealGround) {
         EXPECT_LT(rmseOf(report, hold_out, "kriging"), 0.95 * linear) << hold_out;
     }
     EXPECT_TRUE(fs::exists(scratch / "dem_uncertainty.tif"));
+}
+
+TEST(VolumeCommand, TellsTheVolumeAndItsStandardError) {
+    const TemporaryFolder scratch;
+    writeBytes(scratch / "p.csv", "x_m,y_m,z_m\n0,0,3\n10,0,3\n10,10,3\n0,10,3\n");
+    const std::string dem = (scratch / "dem.tif").string();
+    ASSERT_EQ(terrawalk({"surface", (scratch / "p.csv").string(), "-o", dem, "--method", "linear",
+                         "--no-validation", "--resolution", "1"})
+                  .exit_code,
+              0);
+    const auto outcome =
+        terrawalk({"volume", dem, "--plane", "1", "--sigma", "0.1", "--common-sigma", "0.05", "--json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const json volume = json::parse(outcome.out);
+    EXPECT_NEAR(volume.at("net").at("volume").get<double>(), 200.0, 1e-9);
+    // 100 cells of a square metre: 0.1 sqrt(100) and 0.05 * 100.
+    EXPECT_NEAR(volume.at("net").at("standard_error").get<double>(), std::hypot(1.0, 5.0), 1e-6);
+    EXPECT_EQ(terrawalk({"volume", dem}).exit_code, 2);
+    EXPECT_EQ(terrawalk({"volume", dem, "--plane", "1", "--against", dem}).exit_code, 2);
+    EXPECT_EQ(terrawalk({"volume", (scratch / "none.tif").string(), "--plane", "1"}).exit_code, 3);
 }
 
 TEST(SurfaceCommand, SaysWhatIsWrong) {
