@@ -251,7 +251,7 @@ class JointAdjuster {
             const bool with_pairs = options_.joint.use_crossovers && round > 1;
             if (options_.joint.use_crossovers && (round == 0 || with_pairs)) findPairs();
             if (round == 0) result.summary.misfit_before_m = misfit();
-            SparseLeastSquares system(unknowns_, robust ? groups : rowGroups(false));
+            SparseLeastSquares system(unknowns_, robust ? groups : rowGroups(false), stop_);
             addRows(system, with_pairs);
             if (stop_.stop_requested()) return cancelled();
             wantCovariances(system);

@@ -113,8 +113,9 @@ Result<GdalDataset> describe(const ElevationGrid& grid, std::vector<float>& cell
     if (!ok) return systemError("cannot describe the DEM: " + errors.text(), file);
 
     GDALRasterBand* const band = dataset->GetRasterBand(1);
-    band->SetDescription("Elevation (m)");
-    ok = band->SetUnitType("m") == CE_None && band->SetNoDataValue(double{kNoData}) == CE_None;
+    band->SetDescription(fmt::format("{} ({})", description.quantity, description.unit).c_str());
+    ok = band->SetUnitType(description.unit.c_str()) == CE_None &&
+         band->SetNoDataValue(double{kNoData}) == CE_None;
     std::array<double, 4> statistics{};
     ok = ok && band->ComputeStatistics(FALSE, &statistics[0], &statistics[1], &statistics[2], &statistics[3],
                                        nullptr, nullptr) == CE_None;

@@ -22,9 +22,11 @@ struct DemDescription {
     std::string title;                                          ///< TIFFTAG_IMAGEDESCRIPTION
     std::string software;                                       ///< TIFFTAG_SOFTWARE
     std::vector<std::pair<std::string, std::string>> metadata;  ///< further items, e.g. METHOD
+    std::string quantity = "Elevation";                         ///< what the band holds
+    std::string unit = "m";                                     ///< of the band: m, ft or US-ft
 };
 
-/// Writes a Cloud-Optimized GeoTIFF: Float32, nodata -9999, unit m, statistics, averaged overviews,
+/// Writes a Cloud-Optimized GeoTIFF: Float32, nodata -9999, statistics, averaged overviews,
 /// everything inside the file; side files of an earlier raster of that name are removed. The same grid gives
 /// the same bytes. The file is read again before it takes its place. Errors: BadData for a grid without any
 /// height or with one that the file cannot hold, and for a CRS that GDAL does not know; System; Cancelled.

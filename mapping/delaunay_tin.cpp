@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "mapping/edge_limit.hpp"
+#include "mapping/point_order.hpp"
 #include "mapping/triangle_locator.hpp"
 
 namespace terrawalk {
@@ -42,109 +43,9 @@ using Triangulation =
 using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr std::size_t kInsertionsBetweenReports = 16384;
-constexpr double kGreatestCoordinate_m = 1e9;  // beyond any map frame on Earth
 
 PlanPoint plan(const Eigen::Vector3d& point_m) {
     return {point_m.x(), point_m.y()};
-}
-
-constexpr int kCurveBits = 24;  // per axis
-
-/// Place along a Hilbert curve over 2^24 x 2^24 cells. Neighbours on the curve are neighbours on the ground.
-std::uint64_t hilbertIndex(std::uint32_t column, std::uint32_t row) {
-    std::uint64_t index = 0;
-    for (int bit = kCurveBits - 1; bit >= 0; --bit) {
-        const std::uint32_t right = (column >> bit) & 1U;
-        const std::uint32_t upper = (row >> bit) & 1U;
-        index = (index << 2) | ((3U * right) ^ upper);
-        // Without branches: which quarter comes next is as good as random.
-        const std::uint32_t mirror = 0U - (right & (upper ^ 1U));
-        column ^= mirror;
-        row ^= mirror;
-        const std::uint32_t exchange = (column ^ row) & (0U - (upper ^ 1U));
-        column ^= exchange;
-        row ^= exchange;
-    }
-    return index;
-}
-
-struct CurvePlace {
-    std::uint64_t curve;
-    std::uint32_t point;
-};
-
-/// By the curve, then by coordinates. First into buckets by the leading bits, which is most of the work done
-/// in one pass.
-void sortAlongCurve(std::vector<CurvePlace>& places, const std::vector<Eigen::Vector3d>& points_m) {
-    constexpr int kBucketShift = 2 * kCurveBits - 12;
-    std::array<std::size_t, (1U << 12) + 1> begins{};
-    for (const CurvePlace& place : places) {
-        ++begins[(place.curve >> kBucketShift) + 1];
-    }
-    std::partial_sum(begins.begin(), begins.end(), begins.begin());
-    std::vector<CurvePlace> sorted(places.size());
-    auto next = begins;
-    for (const CurvePlace& place : places) {
-        sorted[next[place.curve >> kBucketShift]++] = place;
-    }
-    const auto before = [&](const CurvePlace& a, const CurvePlace& b) {
-        if (a.curve != b.curve) {
-            return a.curve < b.curve;
-        }
-        const Eigen::Vector3d& p = points_m[a.point];
-        const Eigen::Vector3d& q = points_m[b.point];
-        return std::tuple(p.y(), p.x(), p.z()) < std::tuple(q.y(), q.x(), q.z());
-    };
-    for (std::size_t bucket = 0; bucket + 1 < begins.size(); ++bucket) {
-        std::sort(sorted.data() + begins[bucket], sorted.data() + begins[bucket + 1], before);
-    }
-    places.swap(sorted);
-}
-
-/// Points in the order of a Hilbert curve, then by coordinates: one order, whatever order they came in. Minus
-/// zero becomes zero, since the two compare equal and differ in their bytes.
-std::vector<Eigen::Vector3d> inCurveOrder(const std::vector<Eigen::Vector3d>& points_m) {
-    Eigen::Vector3d low = points_m.front();
-    Eigen::Vector3d high = points_m.front();
-    for (const Eigen::Vector3d& point : points_m) {
-        low = low.cwiseMin(point);
-        high = high.cwiseMax(point);
-    }
-    const double extent = std::max(high.x() - low.x(), high.y() - low.y());
-    const double cells_per_metre = extent > 0.0 ? (std::ldexp(1.0, kCurveBits) - 1.0) / extent : 0.0;
-
-    std::vector<CurvePlace> places(points_m.size());
-    for (std::size_t i = 0; i < points_m.size(); ++i) {
-        places[i] = {hilbertIndex(static_cast<std::uint32_t>((points_m[i].x() - low.x()) * cells_per_metre),
-                                  static_cast<std::uint32_t>((points_m[i].y() - low.y()) * cells_per_metre)),
-                     static_cast<std::uint32_t>(i)};
-    }
-    sortAlongCurve(places, points_m);
-
-    std::vector<Eigen::Vector3d> ordered(points_m.size());
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const Eigen::Vector3d& point = points_m[places[i].point];
-        ordered[i] = {point.x() + 0.0, point.y() + 0.0, point.z() + 0.0};
-    }
-    return ordered;
-}
-
-/// Points at the same place in plan, neighbours in curve order, become one at their mean height.
-void mergeSamePlaces(std::vector<Eigen::Vector3d>& points_m) {
-    std::size_t kept = 0;
-    for (std::size_t begin = 0; begin < points_m.size();) {
-        const Eigen::Vector3d first = points_m[begin];
-        double above_first = 0.0;
-        std::size_t end = begin;
-        while (end < points_m.size() && points_m[end].x() == first.x() && points_m[end].y() == first.y()) {
-            above_first += points_m[end].z() - first.z();
-            ++end;
-        }
-        const double mean = first.z() + above_first / static_cast<double>(end - begin);
-        points_m[kept++] = {first.x(), first.y(), mean};
-        begin = end;
-    }
-    points_m.resize(kept);
 }
 
 /// A point off the line through the first and the last; nothing when there is none.
@@ -282,11 +183,8 @@ Result<TriangleMesh> delaunayMesh(const std::vector<Eigen::Vector3d>& points_m, 
                                   std::stop_token stop) {
     static constexpr auto kCure =
         "walk several lines beside one another, and look at why ground points were rejected";
-    for (std::size_t i = 0; i < points_m.size(); ++i) {
-        if (!(points_m[i].cwiseAbs().maxCoeff() <= kGreatestCoordinate_m) || !points_m[i].allFinite()) {
-            return badData(fmt::format("ground point {} of {} is no place on Earth: {}, {}, {}", i + 1,
-                                       points_m.size(), points_m[i].x(), points_m[i].y(), points_m[i].z()));
-        }
+    if (auto checked = checkCoordinates(points_m); !checked) {
+        return tl::unexpected(checked.error());
     }
     if (points_m.size() > 0x7FFF'FFFFU) {
         return badData(fmt::format("{} ground points are more than a surface can hold", points_m.size()), {},

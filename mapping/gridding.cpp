@@ -245,29 +245,13 @@ void fillTriangle(const std::array<std::uint32_t, 3>& triangle, const std::vecto
     }
 }
 
-}  // namespace
-
-double suggestCellSize(double area_m2, std::size_t points) {
-    assert(area_m2 > 0.0 && points > 0);
-    const double spacing = std::sqrt(area_m2 / static_cast<double>(points));
-    int step = kFinestStep;
-    while (step < kCoarsestStep && cellSizeStep(step + 1) <= 0.5 * spacing) {
-        ++step;
-    }
-    return cellSizeStep(step);
-}
-
 constexpr double kLeastCell_m = 0.001;
 
-Result<GridGeometry> gridCovering(const TriangleMesh& mesh, double cell_m, std::size_t greatest_cell_count) {
+Result<GridGeometry> gridOver(const PlanBox& box, double cell_m, std::size_t greatest_cell_count) {
     if (!(cell_m >= kLeastCell_m) || !std::isfinite(cell_m)) {
         return usageError(fmt::format("a cell of {} m is none", cell_m),
                           "ask for a resolution of a millimetre or more");
     }
-    if (mesh.vertices_m.empty()) {
-        return badData("there is no surface to make a grid of");
-    }
-    const PlanBox box = planBox(mesh);
     const double west = std::floor(indexOf(box.west, cell_m));
     const double east = std::max(std::ceil(indexOf(box.east, cell_m)), west + 1.0);
     const double south = std::floor(indexOf(box.south, cell_m));
@@ -293,6 +277,34 @@ Result<GridGeometry> gridCovering(const TriangleMesh& mesh, double cell_m, std::
     geometry.columns = static_cast<std::size_t>(columns);
     geometry.rows = static_cast<std::size_t>(rows);
     return geometry;
+}
+
+}  // namespace
+
+double suggestCellSize(double area_m2, std::size_t points) {
+    assert(area_m2 > 0.0 && points > 0);
+    const double spacing = std::sqrt(area_m2 / static_cast<double>(points));
+    int step = kFinestStep;
+    while (step < kCoarsestStep && cellSizeStep(step + 1) <= 0.5 * spacing) {
+        ++step;
+    }
+    return cellSizeStep(step);
+}
+
+Result<GridGeometry> gridCovering(const TriangleMesh& mesh, double cell_m, std::size_t greatest_cell_count) {
+    if (mesh.vertices_m.empty()) {
+        return badData("there is no surface to make a grid of");
+    }
+    return gridOver(planBox(mesh), cell_m, greatest_cell_count);
+}
+
+Result<GridGeometry> gridCovering(const GridExtent& extent, double cell_m, std::size_t greatest_cell_count) {
+    if (!(extent.east_m > extent.west_m) || !(extent.north_m > extent.south_m)) {
+        return usageError("the extent has no area",
+                          "give xmin,ymin,xmax,ymax with xmin < xmax and ymin < ymax");
+    }
+    return gridOver({extent.west_m, extent.east_m, extent.south_m, extent.north_m}, cell_m,
+                    greatest_cell_count);
 }
 
 Result<ElevationGrid> rasterize(const TriangleMesh& mesh, const GridGeometry& geometry, Progress& progress,

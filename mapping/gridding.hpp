@@ -28,6 +28,17 @@ inline constexpr std::size_t kGreatestCellCount = 1'000'000'000;
 [[nodiscard]] Result<GridGeometry> gridCovering(const TriangleMesh& mesh, double cell_m,
                                                 std::size_t greatest_cell_count = kGreatestCellCount);
 
+/// A rectangle in plan.
+struct GridExtent {
+    double west_m = 0.0;
+    double south_m = 0.0;
+    double east_m = 0.0;
+    double north_m = 0.0;
+};
+/// The same for a rectangle. Errors: also Usage for one without area.
+[[nodiscard]] Result<GridGeometry> gridCovering(const GridExtent& extent, double cell_m,
+                                                std::size_t greatest_cell_count = kGreatestCellCount);
+
 /// Heights of the mesh at the cell centres by linear interpolation; NaN where no triangle is. A centre on an
 /// edge or a vertex belongs to the surface, also at its border; a vertex within a millionth of a cell of a
 /// centre's row or column counts as on it, so that points given on cell centres fill their own cells whatever

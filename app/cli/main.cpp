@@ -13,12 +13,14 @@
 
 #include "app/cli/interrupt.hpp"
 #include "app/cli/simulate_options.hpp"
+#include "app/cli/surface_options.hpp"
 #include "app/cli/terminal_progress.hpp"
 #include "app/cli/tune_options.hpp"
 #include "app/pipeline/compare.hpp"
 #include "app/pipeline/experiment.hpp"
 #include "app/pipeline/jobs.hpp"
 #include "app/pipeline/json_output.hpp"
+#include "app/pipeline/surface.hpp"
 #include "app/pipeline/tune_file.hpp"
 #include "app/pipeline/tune_jobs.hpp"
 #include "app/pipeline/version.hpp"
@@ -276,6 +278,28 @@ int runExperiments(const ExperimentArguments& arguments, const Common& common, T
     return 0;
 }
 
+int runSurface(const SurfaceRequest& request, const Common& common, TerminalProgress& progress,
+               const std::stop_token& stop) {
+    const auto report = makeSurface(request, progress, stop);
+    if (!report) return fail(report.error(), common, progress);
+    progress.clear();
+    if (common.json) {
+        fmt::print("{}", toJson(*report));
+    } else if (!common.quiet) {
+        fmt::print("{}", toText(*report));
+    }
+    return 0;
+}
+
+int runVolume(const VolumeRequest& request, const Common& common, TerminalProgress& progress,
+              const std::stop_token& stop) {
+    const auto outcome = measureVolume(request, progress, stop);
+    if (!outcome) return fail(outcome.error(), common, progress);
+    progress.clear();
+    fmt::print("{}", common.json ? toJson(*outcome) : toText(*outcome));
+    return 0;
+}
+
 int runConfigPrint(const ProcessArguments& arguments, const Common& common, TerminalProgress& progress) {
     const auto config = configuration(arguments);
     if (!config) return fail(config.error(), common, progress);
@@ -389,6 +413,18 @@ int run(int argc, char** argv) {
         ->capture_default_str();
     addCommon(*experiment_command, common);
 
+    SurfaceRequest surface;
+    CLI::App* surface_command = app.add_subcommand(
+        "surface", "Make a DEM from ground points of any origin, by the method that fits them");
+    addSurfaceOptions(*surface_command, surface);
+    addCommon(*surface_command, common);
+
+    VolumeRequest volume;
+    CLI::App* volume_command = app.add_subcommand(
+        "volume", "Tell the volume between a DEM and a plane or another DEM, with its error");
+    addVolumeOptions(*volume_command, volume);
+    addCommon(*volume_command, common);
+
     CLI::App* config_command = app.add_subcommand("config", "Show and check parameters");
     config_command->require_subcommand(1);
     CLI::App* print_command = config_command->add_subcommand("print", "Print all parameters as JSON");
@@ -416,6 +452,8 @@ int run(int argc, char** argv) {
     if (inspect_command->parsed()) return runInspect(inspected, common, progress, interrupt.token());
     if (simulate_command->parsed()) return runSimulate(simulate, common, progress, interrupt.token());
     if (experiment_command->parsed()) return runExperiments(experiment, common, progress, interrupt.token());
+    if (surface_command->parsed()) return runSurface(surface, common, progress, interrupt.token());
+    if (volume_command->parsed()) return runVolume(volume, common, progress, interrupt.token());
     if (print_command->parsed()) return runConfigPrint(process, common, progress);
     if (describe_command->parsed()) return runConfigDescribe(common);
     return runConfigValidate(validated, common, progress);

@@ -188,7 +188,7 @@ TEST(Crossovers, APassDoesNotMeetItself) {
 }
 
 // Loiters out of the gate and back in within the radius of the fit: one stretch of samples, not two passes.
-TEST(Crossovers, DISABLED_TwoPlacesOfOneStretchAreNone) {
+TEST(Crossovers, TwoPlacesOfOneStretchAreNone) {
     std::vector<GroundSample> samples;
     for (std::uint32_t i = 0; i < 300; ++i) {
         const double angle = 2.0 * std::acos(-1.0) * i / 150.0;  // once around in 30 s

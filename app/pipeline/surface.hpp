@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "io/coordinate_system.hpp"
+#include "mapping/cross_validation.hpp"
+#include "survey/elevation_grid.hpp"
+#include "survey/progress.hpp"
+#include "survey/result.hpp"
+
+namespace terrawalk {
+
+/// A DEM from points of any origin. Lengths are in the unit of the points.
+struct SurfaceRequest {
+    std::filesystem::path points;
+    std::filesystem::path output;                 ///< GeoTIFF
+    std::optional<InterpolationMethod> method;    ///< nothing: the best by cross-validation
+    double resolution = 0.0;                      ///< 0: from the point spacing
+    std::optional<std::array<double, 4>> extent;  ///< xmin, ymin, xmax, ymax; nothing: all points
+    std::filesystem::path breaklines;             ///< vector file; empty: none
+    double longest_edge = 0.0;                    ///< of triangles that count as ground; 0: from the points
+    std::string crs;                              ///< where the file has none; empty: none
+    std::string unit;                             ///< "m", "ft", "us-ft"; empty: by CRS or file, else metre
+    std::vector<int> las_classes;
+    bool cross_validate = true;  ///< needed where the method is not named
+    InterpolationOptions interpolation;
+    std::uint64_t seed = 1;
+};
+
+/// What was made, and how.
+struct SurfaceOutcome {
+    SurfaceRequest request;
+    CoordinateSystem crs;
+    std::size_t points_in_file = 0;
+    std::size_t points_used = 0;
+    std::size_t breaklines_used = 0;
+    InterpolationMethod method = InterpolationMethod::Linear;
+    GridGeometry geometry;
+    double longest_edge = 0.0;
+    std::size_t cells_with_height = 0;
+    double least_height = 0.0;
+    double greatest_height = 0.0;
+    double memory_need_bytes = 0.0;
+    std::optional<CrossValidation> validation;
+    std::vector<std::string> notes;
+    std::vector<std::filesystem::path> files;
+    std::string points_sha256;
+};
+
+/// Reads the points, judges the methods, grids, and writes OUTPUT, with kriging OUTPUT's stem +
+/// "_uncertainty.tif" (standard error), and OUTPUT's stem + ".json", the report. Cells outside the triangles
+/// within the longest edge stay empty, whatever the method. Without a method the first of the ranking is
+/// taken. Memory is told before the grid is made. Errors: as the steps; System when the memory does not
+/// suffice; Cancelled. Each file appears whole or not at all, the report last.
+[[nodiscard]] Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& progress,
+                                                 std::stop_token stop);
+
+[[nodiscard]] std::string toText(const SurfaceOutcome& report);
+[[nodiscard]] std::string toJson(const SurfaceOutcome& report);
+
+}  // namespace terrawalk

@@ -1,0 +1,155 @@
+#include "app/pipeline/volume_job.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "io/read_dem.hpp"
+
+namespace terrawalk {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<void> checkRequest(const VolumeRequest& r) {
+    if (r.plane.has_value() == !r.against.empty()) {
+        return usageError("a volume lies between the DEM and a plane or another DEM",
+                          "give --plane or --against");
+    }
+    if (r.against.empty() && !r.against_uncertainty.empty()) {
+        return usageError("a plane has no uncertainty", "leave out --against-uncertainty");
+    }
+    for (const double value : {r.sigma, r.correlation_range, r.common_sigma}) {
+        if (!(value >= 0.0) || !std::isfinite(value))
+            return usageError("sigmas and ranges may not be below zero");
+    }
+    if (r.plane && !std::isfinite(*r.plane)) return usageError("the plane has no height");
+    return {};
+}
+
+/// A raster on the DEM's own cells.
+Result<ElevationGrid> readAlike(const fs::path& file, const DemFile& dem, const std::stop_token& stop) {
+    auto other = readDem(file, stop);
+    if (!other) return tl::unexpected(other.error());
+    if (!(other->grid.geometry == dem.grid.geometry)) {
+        return badData("the cells are not those of the DEM", file, 0,
+                       "grid both with the same --resolution and --extent, or warp one to the other");
+    }
+    if (other->crs.name != dem.crs.name) {
+        return badData(fmt::format("the CRS is {}, that of the DEM {}", other->crs.name, dem.crs.name), file);
+    }
+    return std::move(other->grid);
+}
+
+/// Adds the variance of one surface, cell by cell; a cell without sigma where there is a difference is an
+/// error.
+Result<void> addVariance(const fs::path& file, double sigma, const DemFile& dem,
+                         const ElevationGrid& difference, std::vector<float>& variances,
+                         const std::stop_token& stop) {
+    if (file.empty()) {
+        for (float& variance : variances) variance += static_cast<float>(sigma * sigma);
+        return {};
+    }
+    const auto sigmas = readAlike(file, dem, stop);
+    if (!sigmas) return tl::unexpected(sigmas.error());
+    for (std::size_t cell = 0; cell < variances.size(); ++cell) {
+        if (std::isnan(difference.heights_m[cell])) continue;
+        const float own = sigmas->heights_m[cell];
+        if (!(own >= 0.0F)) return badData("a cell with a height has no sigma", file);
+        variances[cell] += own * own;
+    }
+    return {};
+}
+
+Result<std::vector<float>> sigmasOf(const VolumeRequest& r, const DemFile& dem,
+                                    const ElevationGrid& difference, const std::stop_token& stop) {
+    std::vector<float> variances(difference.heights_m.size(), 0.0F);
+    if (auto done = addVariance(r.uncertainty, r.sigma, dem, difference, variances, stop); !done) {
+        return tl::unexpected(done.error());
+    }
+    if (!r.against.empty()) {
+        if (auto done = addVariance(r.against_uncertainty, r.sigma, dem, difference, variances, stop);
+            !done) {
+            return tl::unexpected(done.error());
+        }
+    }
+    for (float& value : variances) value = std::sqrt(value);
+    return variances;
+}
+
+}  // namespace
+
+Result<VolumeOutcome> measureVolume(const VolumeRequest& request, Progress& progress, std::stop_token stop) {
+    if (auto checked = checkRequest(request); !checked) return tl::unexpected(checked.error());
+    progress.report(0.0, "reading");
+    const auto dem = readDem(request.dem, stop);
+    if (!dem) return tl::unexpected(dem.error());
+    ElevationGrid difference = dem->grid;
+    if (request.plane) {
+        for (float& height : difference.heights_m) {
+            height = static_cast<float>(static_cast<double>(height) - *request.plane);
+        }
+    } else {
+        const auto other = readAlike(request.against, *dem, stop);
+        if (!other) return tl::unexpected(other.error());
+        for (std::size_t cell = 0; cell < difference.heights_m.size(); ++cell) {
+            difference.heights_m[cell] -= other->heights_m[cell];
+        }
+    }
+    VolumeErrorModel errors;
+    auto sigmas = sigmasOf(request, *dem, difference, stop);
+    if (!sigmas) return tl::unexpected(sigmas.error());
+    errors.sigmas_m = std::move(*sigmas);
+    errors.correlation_range_m = request.correlation_range;
+    errors.common_sigma_m = request.common_sigma;
+    progress.report(0.6, "summing");
+    VolumeOutcome outcome{request, dem->crs.unit.symbol, volumeOf(difference, errors)};
+    if (outcome.volume.cells == 0) return badData("no cell has a height in both", request.dem);
+    if (stop.stop_requested()) return cancelled();
+    progress.report(1.0, "done");
+    return outcome;
+}
+
+std::string toText(const VolumeOutcome& outcome) {
+    const VolumeResult& v = outcome.volume;
+    const std::string& u = outcome.unit;
+    const auto part = [&](const char* what, const VolumePart& p) {
+        return fmt::format("{:<8}{:.3f} {}3, standard error {:.3f}, over {:.2f} {}2\n", what, p.volume_m3, u,
+                           p.sigma_m3, p.area_m2, u);
+    };
+    std::string text = part("Above", v.above) + part("Below", v.below) +
+                       fmt::format("{:<8}{:.3f} {}3, standard error {:.3f}, over {:.2f} {}2\n", "Net",
+                                   v.net_m3, u, v.net_sigma_m3, v.area_m2, u);
+    if (v.net_sigma_m3 == 0.0) {
+        text +=
+            "Note: no uncertainty was given; --uncertainty or --sigma makes the standard errors mean "
+            "something\n";
+    }
+    return text;
+}
+
+std::string toJson(const VolumeOutcome& outcome) {
+    const VolumeRequest& r = outcome.request;
+    const VolumeResult& v = outcome.volume;
+    const auto part = [](const VolumePart& p) {
+        return nlohmann::ordered_json{
+            {"volume", p.volume_m3}, {"standard_error", p.sigma_m3}, {"area", p.area_m2}};
+    };
+    nlohmann::ordered_json document{{"format", "terrawalk-volume 1"},
+                                    {"dem", r.dem.string()},
+                                    {"unit", outcome.unit},
+                                    {"sigma", r.sigma},
+                                    {"correlation_range", r.correlation_range},
+                                    {"common_sigma", r.common_sigma},
+                                    {"above", part(v.above)},
+                                    {"below", part(v.below)},
+                                    {"net", {{"volume", v.net_m3}, {"standard_error", v.net_sigma_m3}}},
+                                    {"area", v.area_m2},
+                                    {"cells", v.cells}};
+    if (r.plane) document["plane"] = *r.plane;
+    if (!r.against.empty()) document["against"] = r.against.string();
+    return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace terrawalk

@@ -1,0 +1,153 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include "io/point_readers.hpp"
+#include "io/text_input.hpp"
+
+namespace terrawalk {
+namespace {
+
+constexpr const char* kHeaderCure =
+    "name the columns x, y and z, each with _m or _ft where its unit is to be known";
+
+class PointTableParser {
+  public:
+    explicit PointTableParser(const std::filesystem::path& file) : file_(file) {}
+
+    [[nodiscard]] std::size_t nextLine() const { return line_ + 1; }
+
+    Result<void> take(const LineBlock& block) {
+        for (const char* at = block.begin; at != block.end;) {
+            ++line_;
+            const char* const line_end = findLineEnd(at, block.end);
+            const std::string_view line = trimmed({at, static_cast<std::size_t>(line_end - at)});
+            at = afterLineEnd(line_end, block.end);
+            if (line.empty() || line.front() == '#') continue;
+            if (auto taken = takeLine(line); !taken) return taken;
+        }
+        return {};
+    }
+
+    Result<ScatteredPoints> finish() {
+        points_.in_file = points_.points.size();
+        return std::move(points_);
+    }
+
+  private:
+    tl::unexpected<Error> bad(std::string message, std::string cure = {}) const {
+        return badData(std::move(message), file_, line_, std::move(cure));
+    }
+
+    Result<void> takeLine(std::string_view line) {
+        if (fields_wanted_ == 0) {
+            if (auto header = takeHeader(line); !header) return header;
+            if (has_header_) return {};
+        }
+        split(line);
+        if (fields_.size() < fields_wanted_) {
+            return bad(fmt::format("{} fields, but column {} is needed", fields_.size(), fields_wanted_),
+                       "one line for each point, with a dot as decimal sign");
+        }
+        std::array<double, 4> numbers{};
+        for (std::size_t k = 0; k < place_.size(); ++k) {
+            if (!place_[k]) continue;
+            const auto number = parseNumber(fields_[*place_[k]]);
+            if (!number) return bad(fmt::format("{} is no number", inQuotes(fields_[*place_[k]])));
+            numbers[k] = *number;
+        }
+        points_.points.emplace_back(numbers[0], numbers[1], numbers[2]);
+        if (place_[3]) {
+            if (numbers[3] < 0.0) return bad("a sigma below zero");
+            points_.sigmas.push_back(numbers[3]);
+        }
+        return {};
+    }
+
+    /// The first line that counts: names, or already a point.
+    Result<void> takeHeader(std::string_view line) {
+        separator_ = line.find(',') != std::string_view::npos    ? ','
+                     : line.find(';') != std::string_view::npos  ? ';'
+                     : line.find('\t') != std::string_view::npos ? '\t'
+                                                                 : ' ';
+        split(line);
+        if (fields_.size() >= 3 && parseNumber(fields_[0]) && parseNumber(fields_[1])) {
+            place_ = {0, 1, 2, std::nullopt};
+            fields_wanted_ = 3;
+            points_.notes.emplace_back(
+                "the table has no header: its first three columns are taken for x, y and z");
+            return {};
+        }
+        has_header_ = true;
+        for (std::size_t i = 0; i < fields_.size(); ++i) {
+            const auto named = namedColumn(fields_[i]);
+            if (!named) continue;
+            std::optional<std::size_t>& place = place_[static_cast<std::size_t>(named->column)];
+            if (place) {
+                return bad(fmt::format("columns {} and {} both could be the same coordinate",
+                                       inQuotes(fields_[*place]), inQuotes(fields_[i])),
+                           kHeaderCure);
+            }
+            place = i;
+            fields_wanted_ = std::max(fields_wanted_, i + 1);
+            if (named->unit && points_.unit && *named->unit != *points_.unit) {
+                return bad("the columns have different units", "convert them to one");
+            }
+            if (named->unit) points_.unit = named->unit;
+        }
+        if (!place_[0] || !place_[1] || !place_[2]) return bad("the header names no x, y and z", kHeaderCure);
+        return {};
+    }
+
+    void split(std::string_view line) {
+        fields_.clear();
+        for (std::size_t begin = 0; begin <= line.size();) {
+            const std::size_t end =
+                std::min(separator_ == ' ' ? line.find_first_of(" \t", begin) : line.find(separator_, begin),
+                         line.size());
+            std::string_view field = trimmed(line.substr(begin, end - begin));
+            if (field.size() >= 2 && field.front() == '"' && field.back() == '"') {
+                field = field.substr(1, field.size() - 2);
+            }
+            if (separator_ != ' ' || !field.empty()) fields_.push_back(field);
+            begin = end + 1;
+        }
+    }
+
+    std::filesystem::path file_;
+    ScatteredPoints points_;
+    std::array<std::optional<std::size_t>, 4> place_{};  ///< by PointColumn
+    std::vector<std::string_view> fields_;
+    std::size_t fields_wanted_ = 0;
+    std::size_t line_ = 0;
+    char separator_ = ',';
+    bool has_header_ = false;
+};
+
+}  // namespace
+
+Result<ScatteredPoints> readPointTable(const std::filesystem::path& file, Progress& progress,
+                                       const std::stop_token& stop) {
+    auto input = InputFile::open(file);
+    if (!input) return tl::unexpected(input.error());
+    if (input->size() == 0) return badData("the file is empty", file);
+    LineBlocks blocks([&input](char* buffer, std::size_t capacity) { return input->read(buffer, capacity); },
+                      file);
+    PointTableParser parser(file);
+    const std::string step = fmt::format("reading {}", file.filename().string());
+    std::size_t bytes_done = 0;
+    for (;;) {
+        if (stop.stop_requested()) return cancelled();
+        const auto block = blocks.next(parser.nextLine());
+        if (!block) return tl::unexpected(block.error());
+        if (auto taken = parser.take(*block); !taken) return tl::unexpected(taken.error());
+        bytes_done += static_cast<std::size_t>(block->end - block->begin);
+        progress.report(static_cast<double>(bytes_done) / static_cast<double>(input->size() + 1), step);
+        if (block->is_last) return parser.finish();
+    }
+}
+
+}  // namespace terrawalk

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <stop_token>
+
+#include "io/coordinate_system.hpp"
+#include "survey/elevation_grid.hpp"
+#include "survey/result.hpp"
+
+namespace terrawalk {
+
+/// The first band of a north-up raster, in the raster's own unit.
+struct DemFile {
+    ElevationGrid grid;
+    CoordinateSystem crs;  ///< a local one in metres where the file has none
+};
+
+/// Reads any raster that GDAL reads. Errors: BadData for a file without raster, without place, turned, with
+/// cells that are not square, or in a CRS that describeCrs() refuses; System when there is not enough memory;
+/// Cancelled.
+[[nodiscard]] Result<DemFile> readDem(const std::filesystem::path& file, std::stop_token stop);
+
+}  // namespace terrawalk

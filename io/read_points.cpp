@@ -1,0 +1,70 @@
+#include "io/read_points.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include "io/point_readers.hpp"
+
+namespace terrawalk {
+
+std::optional<NamedColumn> namedColumn(std::string_view name) {
+    std::string text(name);
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::optional<LengthUnit> unit;
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kEndings{
+        {{"_m", "m"}, {"_usft", "us-ft"}, {"_ft", "ft"}}};
+    for (const auto& [ending, symbol] : kEndings) {
+        if (text.size() > ending.size() && text.ends_with(ending)) {
+            unit = lengthUnit(symbol);
+            text.resize(text.size() - ending.size());
+            break;
+        }
+    }
+    constexpr std::array<std::pair<std::string_view, PointColumn>, 15> kNames{
+        {{"x", PointColumn::X},
+         {"e", PointColumn::X},
+         {"east", PointColumn::X},
+         {"easting", PointColumn::X},
+         {"y", PointColumn::Y},
+         {"n", PointColumn::Y},
+         {"north", PointColumn::Y},
+         {"northing", PointColumn::Y},
+         {"z", PointColumn::Z},
+         {"h", PointColumn::Z},
+         {"u", PointColumn::Z},
+         {"height", PointColumn::Z},
+         {"elevation", PointColumn::Z},
+         {"sigma_z", PointColumn::Sigma},
+         {"sigma_v", PointColumn::Sigma}}};
+    for (const auto& [known, column] : kNames) {
+        if (text == known) return NamedColumn{column, unit};
+    }
+    return std::nullopt;
+}
+
+Result<ScatteredPoints> readPoints(const std::filesystem::path& file, const PointReadOptions& options,
+                                   Progress& progress, std::stop_token stop) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) return badData("no such file", file);
+    Result<ScatteredPoints> points = [&] {
+        if (extension == ".csv" || extension == ".txt" || extension == ".xyz") {
+            return readPointTable(file, progress, stop);
+        }
+        if (extension == ".las" || extension == ".laz") {
+            return readLas(file, options.las_classes, progress, stop);
+        }
+        if (extension == ".ply") return readPly(file, progress, stop);
+        return readVectorPoints(file, progress, stop);
+    }();
+    if (stop.stop_requested()) return cancelled();
+    if (points && points->points.empty()) return badData("there is no point in the file", file);
+    return points;
+}
+
+}  // namespace terrawalk

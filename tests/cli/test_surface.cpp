@@ -1,0 +1,90 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_support.hpp"
+
+namespace terrawalk::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+double rmseOf(const json& report, const std::string& hold_out, const std::string& method) {
+    for (const json& result : report.at("cross_validation").at("results")) {
+        if (result.at("hold_out") != hold_out) continue;
+        for (const json& score : result.at("scores")) {
+            if (score.at("method") == method) return score.at("rmse");
+        }
+    }
+    ADD_FAILURE() << hold_out << " " << method;
+    return 0.0;
+}
+
+// Airborne lidar in feet: a plain TIN is to be beaten by a twentieth, on points and on blocks left out.
+TEST(SurfaceCommand, BeatsThePlainTinOnRealGround) {
+    const fs::path points = fs::path(TERRAWALK_SHARED_DATA) / "lidar_ground/ground_train.csv";
+    if (!fs::exists(points)) GTEST_SKIP() << points << " is not there";
+    const TemporaryFolder scratch;
+    const auto outcome = terrawalk({"surface", points.string(), "-o", (scratch / "dem.tif").string(),
+                                    "--method", "kriging", "--crs", "EPSG:2994", "--json", "--seed", "3"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("of memory"));
+    const json report = json::parse(outcome.out);
+    EXPECT_EQ(report, json::parse(bytesOf(scratch / "dem.json")));
+    EXPECT_EQ(report.at("unit"), "ft");
+    for (const std::string hold_out : {"random-folds", "spatial-blocks"}) {
+        const double linear = rmseOf(report, hold_out, "linear");
+        EXPECT_LT(linear, 0.6) << "in feet";
+        EXPECT_LT(rmseOf(report, hold_out, "kriging"), 0.95 * linear) << hold_out;
+    }
+    EXPECT_TRUE(fs::exists(scratch / "dem_uncertainty.tif"));
+}
+
+TEST(VolumeCommand, TellsTheVolumeAndItsStandardError) {
+    const TemporaryFolder scratch;
+    writeBytes(scratch / "p.csv", "x_m,y_m,z_m\n0,0,3\n10,0,3\n10,10,3\n0,10,3\n");
+    const std::string dem = (scratch / "dem.tif").string();
+    ASSERT_EQ(terrawalk({"surface", (scratch / "p.csv").string(), "-o", dem, "--method", "linear",
+                         "--no-validation", "--resolution", "1"})
+                  .exit_code,
+              0);
+    const auto outcome =
+        terrawalk({"volume", dem, "--plane", "1", "--sigma", "0.1", "--common-sigma", "0.05", "--json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const json volume = json::parse(outcome.out);
+    EXPECT_NEAR(volume.at("net").at("volume").get<double>(), 200.0, 1e-9);
+    // 100 cells of a square metre: 0.1 sqrt(100) and 0.05 * 100.
+    EXPECT_NEAR(volume.at("net").at("standard_error").get<double>(), std::hypot(1.0, 5.0), 1e-6);
+    EXPECT_EQ(terrawalk({"volume", dem}).exit_code, 2);
+    EXPECT_EQ(terrawalk({"volume", dem, "--plane", "1", "--against", dem}).exit_code, 2);
+    EXPECT_EQ(terrawalk({"volume", (scratch / "none.tif").string(), "--plane", "1"}).exit_code, 3);
+}
+
+TEST(SurfaceCommand, SaysWhatIsWrong) {
+    const TemporaryFolder scratch;
+    const auto run = [&](const std::string& text, std::vector<std::string> more = {}) {
+        writeBytes(scratch / "p.csv", text);
+        std::vector<std::string> command{"surface", (scratch / "p.csv").string(), "-o",
+                                         (scratch / "dem.tif").string()};
+        command.insert(command.end(), more.begin(), more.end());
+        return terrawalk(command);
+    };
+    EXPECT_EQ(run("x,y,z\n").exit_code, 3);
+    EXPECT_EQ(run("x,y,z\n1,2,3\n").exit_code, 3);
+    const auto line = run("x,y,z\n0,0,1\n1,1,1\n2,2,1\n3,3,5\n");
+    EXPECT_EQ(line.exit_code, 3);
+    EXPECT_THAT(line.err, HasSubstr("one straight line"));
+    EXPECT_EQ(run("x,y,z\n0,0,1\n1,0,1\n0,1,1\n", {"--method", "spline"}).exit_code, 2);
+    EXPECT_EQ(run("x,y,z\n0,0,1\n1,0,1\n0,1,1\n", {"--extent", "3,0,1,1"}).exit_code, 2);
+    const auto few = run("x,y,z\n0,0,1\n1,0,1\n0,1,1\n");
+    EXPECT_EQ(few.exit_code, 3);
+    EXPECT_THAT(few.err, HasSubstr("choose a method by name"));
+    EXPECT_EQ(run("x,y,z\n0,0,1\n1,0,1\n0,1,1\n", {"--method", "linear", "--no-validation"}).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace terrawalk::test

@@ -1,0 +1,201 @@
+#include <gmock/gmock.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/pipeline/memory_need.hpp"
+#include "app/pipeline/surface.hpp"
+#include "app/pipeline/volume_job.hpp"
+#include "tests/support/random_numbers.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace terrawalk {
+namespace {
+
+using test::bytesOf;
+using test::RandomNumbers;
+using test::TemporaryFolder;
+using test::writeBytes;
+using testing::HasSubstr;
+
+void writePlane(const std::filesystem::path& file, const std::string& header, std::size_t count = 400) {
+    RandomNumbers random(1);
+    std::string text = header + "\n";
+    for (std::size_t i = 0; i < count; ++i) {
+        const double x = 500'000.0 + random.uniform(0.0, 40.0);
+        const double y = 2'500'000.0 + random.uniform(0.0, 30.0);
+        text += fmt::format("{:.6f},{:.6f},{:.9f}\n", x, y, 10.0 + 0.1 * (x - 500'000.0));
+    }
+    writeBytes(file, text);
+}
+
+Result<SurfaceOutcome> surfaceOf(const SurfaceRequest& request) {
+    SilentProgress progress;
+    return makeSurface(request, progress, {});
+}
+
+TEST(Surface, WritesTheDemAndTheReportBesideIt) {
+    const TemporaryFolder folder;
+    writePlane(folder / "plane.csv", "x_ft,y_ft,z_ft");
+    SurfaceRequest request;
+    request.points = folder / "plane.csv";
+    request.output = folder / "dem.tif";
+    request.method = InterpolationMethod::NaturalNeighbour;
+    request.extent = {500'005.0, 2'500'005.0, 500'010.5, 2'500'009.0};
+    request.resolution = 1.0;
+    const auto outcome = surfaceOf(request);
+    ASSERT_TRUE(outcome) << outcome.error().text();
+    EXPECT_EQ(outcome->geometry.columns, 6u);
+    EXPECT_EQ(outcome->geometry.rows, 4u);
+    EXPECT_EQ(outcome->cells_with_height, 24u);
+    EXPECT_NEAR(outcome->least_height, 10.55, 1e-5);
+    EXPECT_NEAR(outcome->greatest_height, 11.05, 1e-5);
+    const auto report = nlohmann::json::parse(bytesOf(folder / "dem.json"));
+    EXPECT_EQ(report.at("unit"), "ft");
+    EXPECT_EQ(report.at("method"), "natural-neighbour");
+    EXPECT_EQ(report.at("cross_validation").at("ranking").size(), 2u);
+    EXPECT_TRUE(std::filesystem::exists(folder / "dem.tif"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "dem_uncertainty.tif"));
+}
+
+TEST(Surface, ChoosesByCrossValidationAndGivesTheSameBytesAgain) {
+    const TemporaryFolder folder;
+    writePlane(folder / "plane.csv", "x,y,z", 150);
+    SurfaceRequest request;
+    request.points = folder / "plane.csv";
+    request.output = folder / "dem.tif";
+    const auto outcome = surfaceOf(request);
+    ASSERT_TRUE(outcome) << outcome.error().text();
+    EXPECT_EQ(outcome->method, outcome->validation->ranking.front());
+    EXPECT_EQ(outcome->validation->methods.size(), kInterpolationMethods.size());
+    const auto before = test::readTree(folder.path());
+    ASSERT_TRUE(surfaceOf(request));
+    EXPECT_EQ(before, test::readTree(folder.path()));
+}
+
+TEST(Surface, FollowsBreaklinesOfAVectorFile) {
+    const TemporaryFolder folder;
+    writePlane(folder / "plane.csv", "x_m,y_m,z_m");
+    // A wall five metres above the plane, and a boundary about the middle.
+    writeBytes(
+        folder / "lines.geojson",
+        R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32649"}},
+"features":[{"type":"Feature","properties":{"kind":"hard"},"geometry":{"type":"LineString",
+"coordinates":[[500010,2500015.5,16],[500030,2500015.5,18]]}},
+{"type":"Feature","properties":{},"geometry":{"type":"Polygon",
+"coordinates":[[[500005,2500005],[500035,2500005],[500035,2500025],[500005,2500025],[500005,2500005]]]}}]})");
+    SurfaceRequest request;
+    request.points = folder / "plane.csv";
+    request.output = folder / "dem.tif";
+    request.breaklines = folder / "lines.geojson";
+    request.resolution = 1.0;
+    request.crs = "EPSG:32649";
+    const auto outcome = surfaceOf(request);
+    ASSERT_TRUE(outcome) << outcome.error().text();
+    EXPECT_EQ(outcome->breaklines_used, 2u);
+    EXPECT_EQ(outcome->cells_with_height, 30u * 20u);
+    EXPECT_NEAR(outcome->greatest_height, 18.0, 0.06);
+    request.crs = "EPSG:32650";
+    EXPECT_THAT(surfaceOf(request).error().text(), HasSubstr("the breaklines are in"));
+    request.method = InterpolationMethod::Kriging;
+    EXPECT_EQ(surfaceOf(request).error().kind, ErrorKind::Usage);
+    request.breaklines = request.points;
+    request.method.reset();
+    EXPECT_THAT(surfaceOf(request).error().text(), HasSubstr("no line"));
+}
+
+TEST(Surface, RefusesContradictingUnitsAndItsOwnInput) {
+    const TemporaryFolder folder;
+    writePlane(folder / "plane.csv", "x_ft,y_ft,z_ft");
+    SurfaceRequest request;
+    request.points = folder / "plane.csv";
+    request.output = folder / "dem.tif";
+    request.unit = "m";
+    EXPECT_THAT(surfaceOf(request).error().text(), HasSubstr("are in ft"));
+    request.unit.clear();
+    request.crs = "EPSG:32649";
+    EXPECT_THAT(surfaceOf(request).error().text(), HasSubstr("EPSG:32649) is in m"));
+    request.crs = "EPSG:4326";
+    EXPECT_THAT(surfaceOf(request).error().text(), HasSubstr("project"));
+    request.crs.clear();
+    request.output = request.points;
+    EXPECT_EQ(surfaceOf(request).error().kind, ErrorKind::Usage);
+    EXPECT_FALSE(std::filesystem::exists(folder / "dem.tif"));
+}
+
+Result<VolumeOutcome> volumeOfFile(const VolumeRequest& request) {
+    SilentProgress progress;
+    return measureVolume(request, progress, {});
+}
+
+// A plane that rises by 0.1 to the east over 20 x 10 cells: 20 * 10 * (11.5 - 11) above the level of 11.
+TEST(Volume, BetweenAPlaneAndADemOfSurface) {
+    const TemporaryFolder folder;
+    writePlane(folder / "plane.csv", "x_m,y_m,z_m");
+    SurfaceRequest surface;
+    surface.points = folder / "plane.csv";
+    surface.output = folder / "dem.tif";
+    surface.method = InterpolationMethod::Linear;
+    surface.cross_validate = false;
+    surface.extent = {500'005.0, 2'500'010.0, 500'025.0, 2'500'020.0};
+    surface.resolution = 1.0;
+    ASSERT_TRUE(surfaceOf(surface));
+    VolumeRequest request;
+    request.dem = folder / "dem.tif";
+    request.plane = 11.0;
+    request.sigma = 0.1;
+    const auto outcome = volumeOfFile(request);
+    ASSERT_TRUE(outcome) << outcome.error().text();
+    EXPECT_NEAR(outcome->volume.net_m3, 100.0, 1e-3);
+    EXPECT_NEAR(outcome->volume.net_sigma_m3, 0.1 * std::sqrt(200.0), 1e-6);
+    EXPECT_NEAR(outcome->volume.above.volume_m3 - outcome->volume.below.volume_m3, 100.0, 1e-3);
+
+    request.plane.reset();
+    request.against = request.dem;
+    const auto same = volumeOfFile(request);
+    ASSERT_TRUE(same) << same.error().text();
+    EXPECT_EQ(same->volume.net_m3, 0.0);
+    EXPECT_NEAR(same->volume.net_sigma_m3, 0.1 * std::sqrt(2.0 * 200.0), 1e-5);
+
+    surface.output = folder / "other.tif";
+    surface.resolution = 2.0;
+    ASSERT_TRUE(surfaceOf(surface));
+    request.against = folder / "other.tif";
+    EXPECT_THAT(volumeOfFile(request).error().text(), HasSubstr("cells are not those"));
+    request.plane = 1.0;
+    EXPECT_EQ(volumeOfFile(request).error().kind, ErrorKind::Usage);
+    request.against.clear();
+    request.sigma = -1.0;
+    EXPECT_EQ(volumeOfFile(request).error().kind, ErrorKind::Usage);
+    request.sigma = 0.0;
+    request.dem = surface.points;
+    EXPECT_EQ(volumeOfFile(request).error().kind, ErrorKind::BadData);
+}
+
+TEST(MemoryNeed, IsRefusedWithAResolutionThatFits) {
+    const MemoryNeed need{1'000'000, 400'000'000, true};
+    EXPECT_TRUE(checkMemory(need, 20e9, 0.5));
+    const double available = 4e9;
+    const auto refused = checkMemory(need, available, 0.5);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().kind, ErrorKind::System);
+    const std::string cure = refused.error().cure;
+    ASSERT_THAT(cure, HasSubstr("resolution of "));
+    const double proposed = std::stod(cure.substr(cure.find("of ") + 3));
+    MemoryNeed coarser = need;
+    const auto cells_at = [&](double cell) {
+        return static_cast<std::size_t>(static_cast<double>(need.cells) * 0.25 / (cell * cell));
+    };
+    coarser.cells = cells_at(proposed);
+    EXPECT_TRUE(checkMemory(coarser, available, proposed));
+    coarser.cells = cells_at(0.8 * proposed);
+    EXPECT_FALSE(checkMemory(coarser, available, proposed));
+    EXPECT_THAT(checkMemory({10'000'000, 10, false}, 1e9, 1.0).error().cure, HasSubstr("thin"));
+    ASSERT_TRUE(availableMemory_bytes());
+    EXPECT_GT(*availableMemory_bytes(), 1e6);
+}
+
+}  // namespace
+}  // namespace terrawalk
