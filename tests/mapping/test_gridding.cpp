@@ -147,7 +147,7 @@ TEST(GridCovering, RefusesImpossibleCellsAndEmptyMeshes) {
         ASSERT_FALSE(refused);
         EXPECT_EQ(refused.error().kind, ErrorKind::Usage);
     }
-    EXPECT_FALSE(gridCovering({}, 1.0));
+    EXPECT_FALSE(gridCovering(TriangleMesh{}, 1.0));
     EXPECT_FALSE(gridCovering(triangleOver(0.0, 0.0, 1e9, 1.0), 1e-12)) << "indices that no double holds";
 }
 
