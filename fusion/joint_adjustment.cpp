@@ -243,12 +243,14 @@ class JointAdjuster {
         result.summary.unknowns = unknowns_;
         std::vector<RowGroup> groups = rowGroups(true);
         std::optional<SparseLeastSquares> before;
-        const int last = 1 + options_.joint.rounds;
-        for (int round = 0; round <= last; ++round) {
+        const int least = options_.joint.rounds;
+        int rounds = 0;  // since the track settled
+        for (int round = 0;; ++round) {
             if (stop_.stop_requested()) return cancelled();
-            progress_.report(static_cast<double>(round) / (last + 1), "adjusting all runs");
+            progress_.report(std::min(1.0, (settled_ ? 2.0 + rounds : std::min(round, 1)) / (2.0 + least)),
+                             "adjusting all runs");
             const bool robust = round > 0;
-            const bool with_pairs = options_.joint.use_crossovers && round > 1;
+            const bool with_pairs = options_.joint.use_crossovers && settled_;
             if (options_.joint.use_crossovers && (round == 0 || with_pairs)) findPairs();
             if (round == 0) result.summary.misfit_before_m = misfit();
             SparseLeastSquares system(unknowns_, robust ? groups : rowGroups(false), stop_);
@@ -258,19 +260,23 @@ class JointAdjuster {
             // With other crossovers another order of elimination is good.
             if (before && !with_pairs) system.continueFrom(*before);
             const auto solution = system.solve();
+            if (stop_.stop_requested()) return cancelled();
             if (!solution) {
                 return badData("the adjustment of all runs has no solution", survey_.project_file, 0,
                                "use --method ukf, or leave out the run that has no position");
             }
-            takeSolution(*solution);
+            const double step_m = takeSolution(*solution);
             takePlanVariances(system);
-            if (round == 1) height_inflation_ = heightInflation(system);
-            const bool adapts = options_.joint.adapt_noise && round > 0 && round < last;
-            if (adapts || round == last) {
+            if (settled_) ++rounds;
+            const bool last = rounds >= 2 * least || (rounds >= least && step_m < kFinalStep_m);
+            if (!settled_ && robust && (step_m < kSettledStep_m || round >= kMostToSettle)) {
+                settled_ = true;
+                height_inflation_ = heightInflation(system);
+            }
+            // Residuals of a track that is still on its way say nothing of the noise.
+            if (settled_) {
                 const std::vector<GroupStatistics> statistics = system.statistics(*solution);
-                if (adapts) system.adaptScales(statistics);
-                groups = system.groups();
-                if (round == last) {
+                if (last) {
                     for (std::size_t g = 0; g < groups.size(); ++g) {
                         if (statistics[g].rows == 0) continue;
                         result.summary.noise.push_back({groups[g].name, statistics[g].rows,
@@ -278,7 +284,10 @@ class JointAdjuster {
                                                         statistics[g].down_weighted});
                     }
                     for (const RunModel& run : runs_) result.trajectories.push_back(trajectory(run, system));
+                    break;
                 }
+                if (options_.joint.adapt_noise) system.adaptScales(statistics);
+                groups = system.groups();
             }
             before.emplace(std::move(system));
         }
@@ -293,6 +302,12 @@ class JointAdjuster {
     }
 
   private:
+    // Greatest of the runs' RMS corrections in plan, from where noise factors and crossovers are looked at,
+    // and where more rounds gain nothing.
+    static constexpr double kSettledStep_m = 0.3;
+    static constexpr double kFinalStep_m = 0.1;
+    static constexpr int kMostToSettle = 8;
+
     std::size_t take(std::size_t n = 1) {
         const std::size_t first = unknowns_;
         unknowns_ += n;
@@ -840,11 +855,12 @@ class JointAdjuster {
                 const double f = run.flow_mps[i].x() / forward_scale;
                 const double l = run.flow_mps[i].y() / left_scale;
                 const Eigen::Vector2d v(c * f - s * l, s * f + c * l);
-                // What errors do is reckoned from the way of the track: the noise of a reading in its own
-                // coefficients would make the flow's scale come out too large.
-                const Eigen::Vector2d way = (trackAt(run, to_s) - trackAt(run, from_s)).head<2>();
+                // What errors do is reckoned from the way of the track, once that is near: the noise of a
+                // reading in its own coefficients would make the flow's scale come out too large.
+                const Eigen::Vector2d tracked = (trackAt(run, to_s) - trackAt(run, from_s)).head<2>();
+                residual += dt * v - tracked;
+                const Eigen::Vector2d way = settled_ ? tracked : dt * v;
                 const Eigen::Vector2d turned(way.y(), -way.x());  // d way / d psi
-                residual += dt * v - way;
                 const Chain::Place place = run.has_gyro ? run.turn_at[i] : run.psi_at[i];
                 if (covered_s == 0.0) first_knot = place.knot;
                 const std::size_t k = std::min<std::size_t>(place.knot - first_knot, 1);
@@ -1211,13 +1227,22 @@ class JointAdjuster {
 
     // ---- the answer
 
-    void takeSolution(const Eigen::VectorXd& solution) {
+    // Returns how far the track moved.
+    double takeSolution(const Eigen::VectorXd& solution) {
         const auto add = [&](Scalar& s) {
             s.value += solution[static_cast<Eigen::Index>(s.unknown)];
         };
         add(iron_sin_);
         add(iron_cos_);
+        double step_m = 0.0;
         for (RunModel& run : runs_) {
+            double squares = 0.0;
+            for (std::size_t k = 0; k < run.correction.knots(); ++k) {
+                for (std::size_t axis = 0; axis < 2; ++axis) {
+                    squares += squared(solution[static_cast<Eigen::Index>(run.correction.unknown(k, axis))]);
+                }
+            }
+            step_m = std::max(step_m, std::sqrt(squares / static_cast<double>(run.correction.knots())));
             for (std::size_t i = 0; i < run.size(); ++i) {
                 for (std::size_t axis = 0; axis < 3; ++axis) {
                     const Chain::Place& at = run.at[i];
@@ -1245,6 +1270,7 @@ class JointAdjuster {
                     add(*s);
             }
         }
+        return step_m;
     }
 
     void takePlanVariances(SparseLeastSquares& system) {
@@ -1375,6 +1401,7 @@ class JointAdjuster {
     RowBuilder row_;
     std::vector<double> scratch_;
     std::size_t turn_interval_ = 0;
+    bool settled_ = false;  // the track is near its place
 };
 
 }  // namespace
