@@ -61,11 +61,11 @@ FusionOptions readingOptions(FusionOptions options) {
 Result<DriftFilterResult> filterWithDrifts(const Survey& survey, const Run& run, const FusionOptions& options,
                                            const std::vector<EpochAttitude>& attitudes,
                                            const RunReference& reference, Progress& progress,
-                                           std::stop_token stop, double noise) {
+                                           std::stop_token stop) {
     const LocalFrame frame = survey.frame();
     const FusionOptions reading_options = readingOptions(options);
     const ReadingContext context{run.log, reading_options, frame, attitudes, reference};
-    DriftModel model(context, noise);
+    DriftModel model(context);
     RunFilter filter(context, run, model);
     const std::size_t n = run.log.size();
     DriftFilterResult result;
@@ -79,8 +79,6 @@ Result<DriftFilterResult> filterWithDrifts(const Survey& survey, const Run& run,
         if (auto error = filter.step(i)) return tl::unexpected<Error>(std::move(*error));
         estimates.push_back(packed(model.state()));
         result.gnss_gated.push_back(filter.gated(Sensor::GnssPosition));
-        result.flow_gated.push_back(filter.gated(Sensor::OpticalFlow));
-        result.barometer_gated.push_back(filter.gated(Sensor::Barometer));
     }
     if (options.smooth) {
         progress.report(0.5, "smoothing " + run.id);

@@ -12,13 +12,10 @@
 
 namespace terrawalk {
 
-/// A run after the filter with error states. The flags, one for each epoch, tell whether a reading of that
-/// sensor was offered and dropped because it lay beyond the gate.
+/// A run after the filter with error states.
 struct DriftFilterResult {
     FusedRun fused;
-    std::vector<bool> gnss_gated;
-    std::vector<bool> flow_gated;
-    std::vector<bool> barometer_gated;
+    std::vector<bool> gnss_gated;  ///< of each epoch: its GNSS position was dropped, being beyond the gate
 };
 
 /// Adaptive unscented Kalman filter with states for the errors that last (barometer drift and gusts, compass
@@ -30,13 +27,13 @@ struct DriftFilterResult {
 ///
 /// Local ENU, SI. All rows but the flow are linear and taken exactly, one by one. Huber weights, gates,
 /// re-admission and the watch over divergence are those of RunFilter. The noise of each sensor follows its
-/// innovations within bounds. `noise` multiplies the sigmas of barometer drift and gusts.
+/// innovations within bounds.
 /// Errors: BadData when the filter diverges; Cancelled. Pure; safe from any thread.
 /// Source: section 3 of the project's estimation notes; Julier and Uhlmann 2004; Mehra 1972 for the noise.
 [[nodiscard]] Result<DriftFilterResult> filterWithDrifts(const Survey& survey, const Run& run,
                                                          const FusionOptions& options,
                                                          const std::vector<EpochAttitude>& attitudes,
                                                          const RunReference& reference, Progress& progress,
-                                                         std::stop_token stop, double noise = 1.0);
+                                                         std::stop_token stop);
 
 }  // namespace terrawalk

@@ -103,8 +103,7 @@ DriftRow linearisedFlow(const DriftEstimate& state, const Eigen::Vector2d& direc
     return row;
 }
 
-DriftTransition driftTransition(const FusionOptions& options, double dt_s, const GnssErrorStep& gnss,
-                                double noise) {
+DriftTransition driftTransition(const FusionOptions& options, double dt_s, const GnssErrorStep& gnss) {
     const LastingErrorOptions& lasting = options.lasting;
     const BarometerOptions& barometer = options.barometer;
     DriftTransition step{DriftMatrix::Identity(), DriftMatrix::Zero()};
@@ -113,8 +112,8 @@ DriftTransition driftTransition(const FusionOptions& options, double dt_s, const
     addWalk(step, kVelocityNorth, kNorth, walk, dt_s);
     addGaussMarkovWalk(step, kVelocityUp, kUp, options.drift.climb_sigma_mps,
                        options.drift.climb_correlation_s, dt_s);
-    step.Q(kBarometerDrift, kBarometerDrift) = squared(noise * barometer.drift_m_per_sqrt_min) * dt_s / 60.0;
-    addGaussMarkov(step, kGust, noise * barometer.gust_sigma_m, barometer.gust_correlation_s, dt_s);
+    step.Q(kBarometerDrift, kBarometerDrift) = squared(barometer.drift_m_per_sqrt_min) * dt_s / 60.0;
+    addGaussMarkov(step, kGust, barometer.gust_sigma_m, barometer.gust_correlation_s, dt_s);
     addGaussMarkov(step, kCompassError, radians(lasting.heading_sigma_deg), lasting.heading_correlation_s,
                    dt_s);
     for (int axis = 0; axis < 3; ++axis) {
@@ -129,7 +128,7 @@ DriftTransition driftTransition(const FusionOptions& options, double dt_s, const
     return step;
 }
 
-DriftModel::DriftModel(const ReadingContext& context, double noise) : context_(context), noise_(noise) {
+DriftModel::DriftModel(const ReadingContext& context) : context_(context) {
     const FusionOptions& options = context.options;
     const RunReference& reference = context.reference;
     const LastingErrorOptions& lasting = options.lasting;
@@ -146,12 +145,11 @@ DriftModel::DriftModel(const ReadingContext& context, double noise) : context_(c
         squared(radians(std::hypot(lasting.hard_iron_sigma_deg, lasting.hard_iron_run_sigma_deg)));
     // Where something else tells the height, it tells the zero of the barometer too, and better than once.
     const double walked_s = std::abs(reference.barometer_zero_time_s - context.log.time_s.front());
-    variance[kBarometerDrift] =
-        reference.barometer_zero_m && heightIsTold()
-            ? squared(options.initial.position_sigma_m)
-            : reference.height_reference_variance_m2 +
-                  squared(noise_ * options.barometer.drift_m_per_sqrt_min) * walked_s / 60.0;
-    variance[kGust] = squared(noise_ * options.barometer.gust_sigma_m);
+    variance[kBarometerDrift] = reference.barometer_zero_m && heightIsTold()
+                                    ? squared(options.initial.position_sigma_m)
+                                    : reference.height_reference_variance_m2 +
+                                          squared(options.barometer.drift_m_per_sqrt_min) * walked_s / 60.0;
+    variance[kGust] = squared(options.barometer.gust_sigma_m);
     for (NoiseFactor& factor : factors_) factor.time_s = context.log.time_s.front();
     const GnssErrorStep gnss = gnssStep(0);
     variance.segment<3>(kGnssErrorEast) << squared(gnss.sigma_m), squared(gnss.sigma_m),
@@ -196,17 +194,15 @@ GnssErrorStep DriftModel::gnssStep(std::size_t epoch) {
 
 void DriftModel::predict(std::size_t epoch) {
     gnss_steps_.push_back(gnssStep(epoch));
-    const DriftTransition step =
-        driftTransition(context_.options, context_.log.time_s[epoch] - context_.log.time_s[epoch - 1],
-                        gnss_steps_.back(), noise_);
+    const DriftTransition step = driftTransition(
+        context_.options, context_.log.time_s[epoch] - context_.log.time_s[epoch - 1], gnss_steps_.back());
     const DriftMatrix P = step.F * state_.covariance * step.F.transpose() + step.Q;
     state_ = {step.F * state_.mean, 0.5 * (P + P.transpose())};
 }
 
 DriftTransition DriftModel::transitionInto(std::size_t epoch) const {
-    DriftTransition step =
-        driftTransition(context_.options, context_.log.time_s[epoch] - context_.log.time_s[epoch - 1],
-                        gnss_steps_[epoch], noise_);
+    DriftTransition step = driftTransition(
+        context_.options, context_.log.time_s[epoch] - context_.log.time_s[epoch - 1], gnss_steps_[epoch]);
     for (const Doubt& doubt : doubts_) {
         if (doubt.epoch == epoch) step.Q.diagonal() += doubt.variance;
     }

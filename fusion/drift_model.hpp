@@ -72,14 +72,14 @@ struct GnssErrorStep {
 };
 
 /// Transition over any step dt_s > 0: exact for random walk, integrated random walk and Gauss-Markov states,
-/// so gaps need no smaller steps. `noise` multiplies the sigmas of barometer drift and gusts.
+/// so gaps need no smaller steps.
 [[nodiscard]] DriftTransition driftTransition(const FusionOptions& options, double dt_s,
-                                              const GnssErrorStep& gnss, double noise);
+                                              const GnssErrorStep& gnss);
 
 /// The fifteen states of one run, for RunFilter. Remembers what the smoother needs to go back.
 class DriftModel final : public FilterModel {
   public:
-    DriftModel(const ReadingContext& context, double noise);
+    explicit DriftModel(const ReadingContext& context);
 
     void predict(std::size_t epoch) override;
     [[nodiscard]] StateEstimate prediction() const override;
@@ -115,7 +115,6 @@ class DriftModel final : public FilterModel {
     void adapt(std::size_t epoch, const Reading& reading, const DriftRow& row);
 
     const ReadingContext& context_;
-    double noise_;
     DriftEstimate state_;
     std::vector<GnssErrorStep> gnss_steps_;  // one for each epoch predicted into, from the first on
     std::vector<Doubt> doubts_;

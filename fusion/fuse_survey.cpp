@@ -1,5 +1,6 @@
 #include "fusion/fuse_survey.hpp"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <atomic>
@@ -62,6 +63,12 @@ Result<FusedSurvey> adjusted(const Survey& survey, std::vector<RunFusion> runs, 
     for (std::size_t i = 0; i < survey.runs.size(); ++i) {
         FusedRun& run = fused.runs[i];
         run.trajectory = solution ? std::move(solution->trajectories[i]) : std::move(starts[i].trajectory);
+        if (solution && !solution->summary.settled) {
+            run.notes.limitations.push_back(fmt::format(
+                "the adjustment of all runs has not settled: the last of {} rounds moved a track by "
+                "{:.2f} m",
+                solution->summary.rounds, solution->summary.last_step_m));
+        }
         if (!solution) {
             run.notes.limitations.push_back(
                 "the adjustment of all runs has no solution: the tracks are those of the filter, crossovers "

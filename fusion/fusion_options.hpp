@@ -293,7 +293,7 @@ struct AukfOptions {
     SageHusaOptions adaptive;
 };
 
-/// Every parameter of fusion. All sigmas are 1 sigma. Defaults were chosen on simulated surveys (seeds 1 to 3
+/// Every parameter of fusion. All sigmas are 1 sigma. Defaults were chosen on simulated surveys (seeds 1 to 8
 /// at three levels of faults) for small errors and for sigmas that own up to them.
 struct FusionOptions {
     FusionMethod method = FusionMethod::Terrawalk;

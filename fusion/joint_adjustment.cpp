@@ -277,6 +277,9 @@ class JointAdjuster {
             if (settled_) {
                 const std::vector<GroupStatistics> statistics = system.statistics(*solution);
                 if (last) {
+                    result.summary.rounds = rounds;
+                    result.summary.last_step_m = step_m;
+                    result.summary.settled = step_m < kFinalStep_m;
                     for (std::size_t g = 0; g < groups.size(); ++g) {
                         if (statistics[g].rows == 0) continue;
                         result.summary.noise.push_back({groups[g].name, statistics[g].rows,
@@ -375,7 +378,7 @@ class JointAdjuster {
         run.base_doubt_rad2.assign(n, 0.0);
         run.base_yaw_rad[0] = run.yaw_rad[0];
         constexpr double kUnknownRate_radps = radians(20.0);  // change of rate from one record to the next
-        const double longest_s = 1.5 * usualStep(log);
+        const double longest_s = 1.5 * usualStep_s(log);
         const double compass_step = 2.0 * squared(compassNoise_rad());
         for (std::size_t i = 1; i < n; ++i) {
             const double dt = log.time_s[i] - log.time_s[i - 1];
@@ -404,15 +407,6 @@ class JointAdjuster {
     // White noise of the compass, a sixth of what it may be off at any time (paper 000, table 1: 0.5
     // degrees).
     double compassNoise_rad() const { return radians(options_.attitude.sigma_heading_deg) / 6.0; }
-
-    static double usualStep(const ArrayLog& log) {
-        std::vector<double> steps;
-        for (std::size_t i = 1; i < log.size(); ++i) steps.push_back(log.time_s[i] - log.time_s[i - 1]);
-        if (steps.empty()) return 1.0;
-        const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-        std::nth_element(steps.begin(), middle, steps.end());
-        return *middle;
-    }
 
     // Takes the gyro's mean bias and the start of its sum from the compass, so that the adjustment begins
     // near the truth. False when the two do not go together.
@@ -879,7 +873,7 @@ class JointAdjuster {
                     bridged_m += dt * run.bridge_sigma_mps[i];
                     return;
                 }
-                variance += squared(dt) * (o.variance_m2ps2 + o.variance_per_v2 * (f * f + l * l));
+                variance += squared(dt) * flowVariance(o, std::hypot(f, l));
             },
             [&](std::size_t k, double interval_s) {
                 if (covered_s > 0.0) {
@@ -1365,8 +1359,8 @@ class JointAdjuster {
                 }
             }
             Eigen::Matrix3d p = g * g * here + f * f * there + g * f * (cross + cross.transpose());
-            const Eigen::Vector3d inflate(std::sqrt(kPlanInflation), std::sqrt(kPlanInflation),
-                                          std::sqrt(height_inflation_));
+            // The variance of heights grows, correlations stay.
+            const Eigen::Vector3d inflate(1.0, 1.0, std::sqrt(height_inflation_));
             p = inflate.asDiagonal() * p * inflate.asDiagonal();
             epoch.covariance.setZero();
             epoch.covariance.topLeftCorner<3, 3>() = p;
@@ -1382,10 +1376,6 @@ class JointAdjuster {
         }
         return result;
     }
-
-    // What the covariance leaves out in plan (linear models, crossovers that share points), from simulated
-    // surveys at three levels of faults.
-    static constexpr double kPlanInflation = 1.0;
 
     const Survey& survey_;
     LocalFrame frame_;

@@ -14,14 +14,6 @@ namespace terrawalk {
 
 namespace {
 
-double usualStep(const std::vector<double>& times_s) {
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < times_s.size(); ++i) steps.push_back(times_s[i] - times_s[i - 1]);
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return *middle;
-}
-
 /// One component of a vector at each step; NaN where there was no record.
 std::vector<double> component(const std::vector<Eigen::Vector3d>& values, Eigen::Index axis) {
     std::vector<double> result;
@@ -165,7 +157,7 @@ std::optional<LevelAcceleration> levelAcceleration(const ArrayLog& log,
     }
     LevelAcceleration series;
     series.from_s = log.time_s.front();
-    series.step_s = usualStep(log.time_s);
+    series.step_s = usualStep_s(log);
     constexpr double kMostSteps = 1e7;
     const double steps = (log.time_s.back() - series.from_s) / series.step_s;
     if (!(steps < kMostSteps)) return std::nullopt;

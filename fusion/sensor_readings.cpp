@@ -376,6 +376,15 @@ BarometerVariance barometerVariance(const BarometerOptions& options, double sinc
                                                                           std::abs(since_zero_s) / 60.0};
 }
 
+double usualStep_s(const ArrayLog& log) {
+    if (log.size() < 2) return 1.0;
+    std::vector<double> steps_s;
+    for (std::size_t i = 1; i < log.size(); ++i) steps_s.push_back(log.time_s[i] - log.time_s[i - 1]);
+    const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
+    std::nth_element(steps_s.begin(), middle, steps_s.end());
+    return *middle;
+}
+
 double flowVariance(const FlowOptions& options, double speed_mps) {
     return options.variance_m2ps2 + options.variance_per_v2 * squared(speed_mps);
 }

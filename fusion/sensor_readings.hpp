@@ -90,6 +90,9 @@ struct BarometerVariance {
 };
 [[nodiscard]] BarometerVariance barometerVariance(const BarometerOptions& options, double since_zero_s);
 
+/// Usual time between two records of a log, the median; 1 s for a log of fewer than two.
+[[nodiscard]] double usualStep_s(const ArrayLog& log);
+
 /// Variance of white noise of the flow at a speed [m/s], each component.
 [[nodiscard]] double flowVariance(const FlowOptions& options, double speed_mps);
 

@@ -144,7 +144,8 @@ std::vector<GroupStatistics> SparseLeastSquares::statistics(const Eigen::VectorX
         const double redundancy = std::clamp(1.0 - used * predicted / squared(sigma), 0.0, 1.0);
         s.redundancy += redundancy;
         if (group.by_median) {
-            deviations[row_groups_[row]].push_back(std::abs(after) / (sigma * std::sqrt(std::max(redundancy, 0.02))));
+            deviations[row_groups_[row]].push_back(std::abs(after) /
+                                                   (sigma * std::sqrt(std::max(redundancy, 0.02))));
         }
         s.weighted_squares += weight * squared(after / sigma);
         if (weight < 0.5) ++s.down_weighted;
@@ -170,8 +171,7 @@ void SparseLeastSquares::adaptScales(const std::vector<GroupStatistics>& statist
             const double ratio =
                 (rows * squared(s.median_deviation) + group.prior_rows / squared(group.scale)) /
                 (rows + group.prior_rows);
-            group.scale =
-                std::clamp(group.scale * std::sqrt(ratio), group.least_scale, group.greatest_scale);
+            group.scale = std::clamp(group.scale * std::sqrt(ratio), group.least_scale, group.greatest_scale);
             continue;
         }
         const double expected = expectedWeightedSquare(group.loss, group.tuning);

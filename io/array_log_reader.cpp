@@ -658,25 +658,6 @@ class ArrayLogParser {
     std::vector<OddRow> odd_rows_;  ///< late or repeated, in the order of the file
 };
 
-Result<ArrayLog> parseBlocks(LineBlocks::Source source, const std::filesystem::path& file, std::size_t bytes,
-                             Progress& progress, const std::stop_token& stop) {
-    const std::string step = fmt::format("reading {}", file.filename().string());
-    LineBlocks blocks(std::move(source), file);
-    ArrayLogParser parser(file, bytes);
-    std::size_t bytes_done = 0;
-    for (;;) {
-        if (stop.stop_requested()) return cancelled();
-        const auto block = blocks.next(parser.nextLine());
-        if (!block) return tl::unexpected(block.error());
-        if (auto taken = parser.take(*block); !taken) return tl::unexpected(taken.error());
-        bytes_done += static_cast<std::size_t>(block->end - block->begin);
-        progress.report(std::min(1.0, static_cast<double>(bytes_done) /
-                                          static_cast<double>(std::max(bytes, std::size_t{1}))),
-                        step);
-        if (block->is_last) return parser.finish();
-    }
-}
-
 }  // namespace
 
 Result<ArrayLog> readArrayLog(const std::filesystem::path& file, Progress& progress, std::stop_token stop) {
@@ -686,7 +667,8 @@ Result<ArrayLog> readArrayLog(const std::filesystem::path& file, Progress& progr
     const auto source = [&input](char* buffer, std::size_t capacity) {
         return input->read(buffer, capacity);
     };
-    return parseBlocks(source, file, input->size(), progress, stop);
+    ArrayLogParser parser(file, input->size());
+    return parseLines(source, file, input->size(), parser, progress, stop);
 }
 
 Result<ArrayLog> parseArrayLog(std::string_view bytes, const std::filesystem::path& file, Progress& progress,
@@ -698,7 +680,8 @@ Result<ArrayLog> parseArrayLog(std::string_view bytes, const std::filesystem::pa
         rest.remove_prefix(length);
         return length;
     };
-    return parseBlocks(source, file, bytes.size(), progress, stop);
+    ArrayLogParser parser(file, bytes.size());
+    return parseLines(source, file, bytes.size(), parser, progress, stop);
 }
 
 }  // namespace terrawalk

@@ -2,6 +2,7 @@
 
 #include <cpl_error.h>
 #include <gdal_priv.h>
+#include <ogr_spatialref.h>
 
 #include <memory>
 #include <string>
@@ -32,5 +33,15 @@ class GdalErrors {
     }
     std::string first_;
 };
+
+/// Well-known text; empty without a CRS, or where GDAL cannot write it.
+inline std::string wktOf(const OGRSpatialReference* crs) {
+    if (crs == nullptr) return {};
+    char* text = nullptr;
+    const bool ok = crs->exportToWkt(&text) == OGRERR_NONE && text != nullptr;
+    std::string wkt = ok ? text : "";
+    CPLFree(text);
+    return wkt;
+}
 
 }  // namespace terrawalk

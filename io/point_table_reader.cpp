@@ -134,20 +134,11 @@ Result<ScatteredPoints> readPointTable(const std::filesystem::path& file, Progre
     auto input = InputFile::open(file);
     if (!input) return tl::unexpected(input.error());
     if (input->size() == 0) return badData("the file is empty", file);
-    LineBlocks blocks([&input](char* buffer, std::size_t capacity) { return input->read(buffer, capacity); },
-                      file);
+    const auto source = [&input](char* buffer, std::size_t capacity) {
+        return input->read(buffer, capacity);
+    };
     PointTableParser parser(file);
-    const std::string step = fmt::format("reading {}", file.filename().string());
-    std::size_t bytes_done = 0;
-    for (;;) {
-        if (stop.stop_requested()) return cancelled();
-        const auto block = blocks.next(parser.nextLine());
-        if (!block) return tl::unexpected(block.error());
-        if (auto taken = parser.take(*block); !taken) return tl::unexpected(taken.error());
-        bytes_done += static_cast<std::size_t>(block->end - block->begin);
-        progress.report(static_cast<double>(bytes_done) / static_cast<double>(input->size() + 1), step);
-        if (block->is_last) return parser.finish();
-    }
+    return parseLines(source, file, input->size(), parser, progress, stop);
 }
 
 }  // namespace terrawalk

@@ -13,15 +13,6 @@
 namespace terrawalk {
 namespace {
 
-std::string wktOf(const OGRSpatialReference* crs) {
-    if (crs == nullptr) return {};
-    char* text = nullptr;
-    const bool ok = crs->exportToWkt(&text) == OGRERR_NONE && text != nullptr;
-    std::string wkt = ok ? text : "";
-    CPLFree(text);
-    return wkt;
-}
-
 class BreaklineLayer {
   public:
     BreaklineLayer(OGRLayer& layer, const std::filesystem::path& file, std::vector<Breakline>& lines)

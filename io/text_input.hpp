@@ -1,15 +1,19 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/file_handle.hpp"
+#include "survey/progress.hpp"
 #include "survey/result.hpp"
 
 namespace terrawalk {
@@ -64,6 +68,28 @@ class LineBlocks {
     std::size_t taken_ = 0;   ///< bytes of the last block
     bool first_ = true;
 };
+
+/// Feeds a parser block by block: Parser::nextLine(), take(block), and finish() after the last, which gives
+/// the result. `bytes` of the text are for the progress alone.
+template <class Parser>
+auto parseLines(LineBlocks::Source source, const std::filesystem::path& file, std::size_t bytes,
+                Parser& parser, Progress& progress, const std::stop_token& stop)
+    -> decltype(parser.finish()) {
+    const std::string step = "reading " + file.filename().string();
+    LineBlocks blocks(std::move(source), file);
+    std::size_t bytes_done = 0;
+    for (;;) {
+        if (stop.stop_requested()) return cancelled();
+        const auto block = blocks.next(parser.nextLine());
+        if (!block) return tl::unexpected(block.error());
+        if (auto taken = parser.take(*block); !taken) return tl::unexpected(taken.error());
+        bytes_done += static_cast<std::size_t>(block->end - block->begin);
+        progress.report(std::min(1.0, static_cast<double>(bytes_done) /
+                                          static_cast<double>(std::max(bytes, std::size_t{1}))),
+                        step);
+        if (block->is_last) return parser.finish();
+    }
+}
 
 /// Where the line that starts at `begin` ends: at its line end or at `end`.
 [[nodiscard]] const char* findLineEnd(const char* begin, const char* end);

@@ -36,15 +36,6 @@ Result<OGRLayer*> pointLayer(GDALDataset& dataset, const std::filesystem::path& 
     return found;
 }
 
-std::string wktOf(const OGRSpatialReference* crs) {
-    if (crs == nullptr) return {};
-    char* text = nullptr;
-    const bool ok = crs->exportToWkt(&text) == OGRERR_NONE && text != nullptr;
-    std::string wkt = ok ? text : "";
-    CPLFree(text);
-    return wkt;
-}
-
 class VectorPoints {
   public:
     VectorPoints(OGRLayer& layer, const std::filesystem::path& file) : layer_(layer), file_(file) {

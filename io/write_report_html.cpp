@@ -359,6 +359,8 @@ std::string adjustmentSection(const std::optional<AdjustmentSummary>& adjustment
     rows += pairRow("Their heights differ by",
                     fmt::format("{} m RMS after the filter, {} m after the adjustment",
                                 metres3(a.misfit_before_m), metres3(a.misfit_after_m)));
+    rows += pairRow("Rounds", fmt::format("{}, the last of which moved a track by {} m RMS", a.rounds,
+                                          metres3(a.last_step_m)));
     rows +=
         pairRow("Variance of heights",
                 a.height_inflation > 1.0

@@ -193,6 +193,9 @@ Json adjustmentJson(const std::optional<AdjustmentSummary>& adjustment) {
             {"misfit_before_m", a.misfit_before_m},
             {"misfit_after_m", a.misfit_after_m},
             {"height_variance_inflation", a.height_inflation},
+            {"rounds", a.rounds},
+            {"last_step_m", a.last_step_m},
+            {"settled", a.settled},
             {"noise", listOf(a.noise, noiseJson)}};
 }
 

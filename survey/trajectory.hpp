@@ -75,9 +75,12 @@ struct AdjustmentSummary {
     std::size_t crossovers = 0;    ///< pairs of passes over the same ground
     double misfit_before_m = 0.0;  ///< RMS of their heights' differences on the filter's tracks
     double misfit_after_m = 0.0;
-    /// Factor on the variance of heights by an internal test: misfits of crossovers that the track knew nothing
-    /// of, over their predicted variance. At least 1.
+    /// Factor on the variance of heights by an internal test: misfits of crossovers that the track knew
+    /// nothing of, over their predicted variance. At least 1.
     double height_inflation = 1.0;
+    int rounds = 0;            ///< with crossovers
+    double last_step_m = 0.0;  ///< RMS by which the last of them moved the run that moved most, in plan
+    bool settled = false;      ///< whether that is little enough
     std::vector<NoiseFactor> noise;
 };
 

@@ -30,11 +30,22 @@ fs::path beside(const fs::path& output, const std::string& ending) {
     return path;
 }
 
+fs::path uncertaintyFile(const SurfaceRequest& request) {
+    return beside(request.output, "_uncertainty.tif");
+}
+
+fs::path reportFile(const SurfaceRequest& request) {
+    return beside(request.output, ".json");
+}
+
 Result<void> checkRequest(const SurfaceRequest& request) {
-    std::error_code error;
-    if (fs::equivalent(request.points, request.output, error) ||
-        fs::equivalent(request.points, beside(request.output, ".json"), error)) {
-        return usageError("the output would replace the points", "choose another name for it");
+    for (const fs::path& input : {request.points, request.breaklines}) {
+        for (const fs::path& output : {request.output, uncertaintyFile(request), reportFile(request)}) {
+            std::error_code error;
+            if (!fs::equivalent(input, output, error)) continue;
+            return usageError(fmt::format("the output would replace {}", input.string()),
+                              "choose another name for it");
+        }
     }
     const bool follows = !request.method || *request.method == InterpolationMethod::Linear ||
                          *request.method == InterpolationMethod::CloughTocher;
@@ -194,8 +205,14 @@ Result<void> writeFiles(const InterpolatedGrid& grid, SurfaceOutcome& report, co
                                             {"POINTS", std::to_string(report.points_used)}},
                                .unit = report.crs.unit.symbol};
     report.files = {request.output};
-    if (!grid.variances_m2.empty()) report.files.push_back(beside(request.output, "_uncertainty.tif"));
-    report.files.push_back(beside(request.output, ".json"));
+    if (!grid.variances_m2.empty()) {
+        report.files.push_back(uncertaintyFile(request));
+    } else if (std::error_code error; fs::exists(uncertaintyFile(request), error)) {
+        report.notes.push_back(fmt::format("{} does not belong to this DEM: method {} gives no uncertainty",
+                                           uncertaintyFile(request).filename().string(),
+                                           name(report.method)));
+    }
+    report.files.push_back(reportFile(request));
     if (auto done = writeDem(grid.heights, description, request.output, stop); !done) return done;
     if (!grid.variances_m2.empty()) {
         description.quantity = "Standard error of kriging";

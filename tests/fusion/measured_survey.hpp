@@ -4,16 +4,9 @@
 
 #include "fusion/positioning_model.hpp"
 #include "fusion/simulation.hpp"
+#include "tests/support/small_survey.hpp"
 
 namespace terrawalk {
-
-/// A simulated survey; throws when there is none.
-inline SimulatedSurvey simulatedSurvey(const SimulationOptions& options) {
-    SilentProgress progress;
-    auto simulated = simulateSurvey(options, progress, {});
-    if (!simulated) throw std::runtime_error(simulated.error().text());
-    return std::move(*simulated);
-}
 
 inline MeasuredRun measured(const Survey& survey, const Run& run, const FusionOptions& options) {
     RunNotes notes;

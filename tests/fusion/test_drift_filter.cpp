@@ -151,8 +151,8 @@ TEST(DriftModel, TheFlowRowHasTheMomentsOfAMonteCarlo) {
 TEST(DriftModel, OneLongStepIsManyShortOnes) {
     const FusionOptions options;
     const GnssErrorStep gnss{false, 1.2, 1.9};
-    const DriftTransition whole = driftTransition(options, 10.0, gnss, 1.0);
-    DriftTransition parts = driftTransition(options, 0.1, gnss, 1.0);
+    const DriftTransition whole = driftTransition(options, 10.0, gnss);
+    DriftTransition parts = driftTransition(options, 0.1, gnss);
     const DriftTransition step = parts;
     for (int k = 1; k < 100; ++k) {
         parts.F = (step.F * parts.F).eval();
@@ -163,7 +163,7 @@ TEST(DriftModel, OneLongStepIsManyShortOnes) {
 }
 
 TEST(DriftModel, ANewKindOfFixForgetsTheGnssErrorAlone) {
-    const DriftTransition step = driftTransition({}, 0.2, {true, 0.3, 0.4}, 1.0);
+    const DriftTransition step = driftTransition({}, 0.2, {true, 0.3, 0.4});
     const DriftEstimate before = someState(0.5);
     const DriftMatrix P = step.F * before.covariance * step.F.transpose() + step.Q;
     EXPECT_EQ((step.F * before.mean).tail<3>(), Eigen::Vector3d::Zero());
@@ -323,7 +323,7 @@ TEST(DriftModel, TheNoiseFactorFollowsTheInnovations) {
         reading.accelerometer.use = false;
         const LocalFrame frame = made.survey.frame();
         const ReadingContext context{made.run().log, reading, frame, attitudes, reference};
-        DriftModel model(context, 1.0);
+        DriftModel model(context);
         RunFilter filter(context, made.run(), model);
         for (std::size_t i = 0; i < made.run().log.size(); ++i) ASSERT_FALSE(filter.step(i));
         EXPECT_GT(model.noiseFactor(Sensor::OpticalFlow), least);

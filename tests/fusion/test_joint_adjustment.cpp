@@ -16,23 +16,10 @@
 
 #include "fusion/fuse_survey.hpp"
 #include "tests/fusion/measured_survey.hpp"
+#include "tests/support/small_survey.hpp"
 
 namespace terrawalk {
 namespace {
-
-SimulationOptions smallField(std::uint64_t seed) {
-    SimulationOptions options;
-    options.seed = seed;
-    options.area_east_m = 15.0;
-    options.area_north_m = 15.0;
-    options.line_spacing_m = 2.0;
-    options.fixed_point_runs = 2;
-    options.fixed_point_epochs = 120;
-    options.area_epochs = 1200;
-    options.control_stops = 2;
-    options.check_points = 12;
-    return options;
-}
 
 FusedSurvey fused(const Survey& survey, const FusionOptions& options = {}) {
     SilentProgress progress;

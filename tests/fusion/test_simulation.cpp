@@ -12,6 +12,7 @@
 #include "fusion/barometer.hpp"
 #include "fusion/simulated_sensors.hpp"
 #include "survey/mark_stands.hpp"
+#include "tests/support/small_survey.hpp"
 
 namespace terrawalk {
 namespace {
@@ -31,15 +32,9 @@ SimulatedSurvey simulate(const SimulationOptions& options) {
 }
 
 SimulationOptions smallPlot() {
-    SimulationOptions options;
-    options.area_east_m = 15.0;
-    options.area_north_m = 15.0;
-    options.line_spacing_m = 2.0;
+    SimulationOptions options = smallField(1);
     options.fixed_point_runs = 3;
     options.fixed_point_epochs = 130;
-    options.area_epochs = 1200;
-    options.control_stops = 2;
-    options.check_points = 12;
     return options;
 }
 

@@ -333,7 +333,8 @@ void survivesKills(bool exchange) {
         EXPECT_GE(::read(started[0], &ready, 1), 0);
         ::close(started[0]);
         // Spread over three publications; 37 and 200 have no common divisor.
-        ::usleep(static_cast<useconds_t>(3.0 * publish_us * static_cast<double>(round * 37 % kRounds) / kRounds));
+        ::usleep(
+            static_cast<useconds_t>(3.0 * publish_us * static_cast<double>(round * 37 % kRounds) / kRounds));
         ::kill(child, SIGKILL);
         const int status = statusOf(child);
         if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "no seccomp here";

@@ -13,6 +13,7 @@
 #include "fusion/fuse_survey.hpp"
 #include "io/read_trajectory.hpp"
 #include "io/write_products.hpp"
+#include "tests/support/small_survey.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace terrawalk {
@@ -20,23 +21,6 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
-
-SimulatedSurvey smallSurvey() {
-    SimulationOptions options;
-    options.seed = 11;
-    options.area_east_m = 15;
-    options.area_north_m = 15;
-    options.line_spacing_m = 2;
-    options.fixed_point_runs = 2;
-    options.fixed_point_epochs = 120;
-    options.area_epochs = 1200;
-    options.control_stops = 2;
-    options.check_points = 12;
-    SilentProgress silent;
-    auto made = simulateSurvey(options, silent, {});
-    if (!made) throw std::runtime_error(made.error().text());
-    return std::move(*made);
-}
 
 std::vector<std::optional<Trajectory>> asTruth(const SimulatedSurvey& simulated) {
     return {simulated.truth.begin(), simulated.truth.end()};
@@ -71,7 +55,7 @@ TEST(Compare, HasEveryMethodAndEveryFilterOnce) {
 }
 
 TEST(Compare, MeasuresTheArrayAgainstTheTruth) {
-    const SimulatedSurvey simulated = smallSurvey();
+    const SimulatedSurvey simulated = simulatedSurvey(smallField());
     const MethodComparison comparison = compared(simulated, asTruth(simulated));
     EXPECT_TRUE(comparison.has_truth);
     for (const ComparedMethod& method : comparedMethods({})) {
@@ -106,7 +90,7 @@ TEST(Compare, MeasuresTheArrayAgainstTheTruth) {
 
 // A method that is tied to a mark shows nothing there; one that is not shows its error.
 TEST(Compare, CountsNoMarkThatTheMethodWasTiedTo) {
-    const SimulatedSurvey simulated = smallSurvey();
+    const SimulatedSurvey simulated = simulatedSurvey(smallField());
     const MethodComparison comparison = compared(simulated, asTruth(simulated));
     EXPECT_EQ(outcomeOf(comparison, "ukf").stop_horizontal.n, 0U);
     EXPECT_GT(outcomeOf(comparison, "raw").stop_horizontal.n, 0U);
@@ -114,7 +98,7 @@ TEST(Compare, CountsNoMarkThatTheMethodWasTiedTo) {
 }
 
 TEST(Compare, DoesWithoutTruth) {
-    const SimulatedSurvey simulated = smallSurvey();
+    const SimulatedSurvey simulated = simulatedSurvey(smallField());
     const MethodComparison comparison =
         compared(simulated, std::vector<std::optional<Trajectory>>(simulated.survey.runs.size()));
     EXPECT_FALSE(comparison.has_truth);
@@ -175,7 +159,7 @@ TEST(Compare, WritesTheSameTableAsTextCsvAndJson) {
 
 // One method that cannot cope ends none of the others.
 TEST(Compare, TellsWhyAMethodFails) {
-    SimulatedSurvey simulated = smallSurvey();
+    SimulatedSurvey simulated = simulatedSurvey(smallField());
     PipelineConfig config;
     config.fusion.divergence.largest_sigma_m = 1e-6;  // the smoothed filter gives up at once
     SilentProgress silent;
@@ -191,7 +175,7 @@ TEST(Compare, StopsWhenAsked) {
     std::stop_source source;
     source.request_stop();
     SilentProgress silent;
-    const SimulatedSurvey simulated = smallSurvey();
+    const SimulatedSurvey simulated = simulatedSurvey(smallField());
     const auto comparison =
         compareMethods(simulated.survey, asTruth(simulated), {}, silent, source.get_token());
     ASSERT_FALSE(comparison);

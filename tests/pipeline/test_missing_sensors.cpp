@@ -10,6 +10,7 @@
 
 #include "app/pipeline/process.hpp"
 #include "fusion/simulation.hpp"
+#include "tests/support/small_survey.hpp"
 
 namespace terrawalk {
 namespace {
@@ -95,23 +96,6 @@ std::vector<Damage> damages() {
     };
 }
 
-SimulatedSurvey smallSurvey() {
-    SimulationOptions options;
-    options.seed = 11;
-    options.area_east_m = 15;
-    options.area_north_m = 15;
-    options.line_spacing_m = 2;
-    options.fixed_point_runs = 2;
-    options.fixed_point_epochs = 120;
-    options.area_epochs = 1200;
-    options.control_stops = 2;
-    options.check_points = 12;
-    SilentProgress silent;
-    auto made = simulateSurvey(options, silent, {});
-    if (!made) throw std::runtime_error(made.error().text());
-    return std::move(*made);
-}
-
 void expectFinite(const Products& products, const Survey& survey) {
     ASSERT_EQ(products.trajectories.size(), survey.runs.size());
     for (std::size_t r = 0; r < survey.runs.size(); ++r) {
@@ -131,7 +115,7 @@ class MissingSensors : public testing::TestWithParam<Damage> {};
 
 // By the default method. The walk is 15 m wide: a track 60 m from the truth would be drawn, not measured.
 TEST_P(MissingSensors, GiveAFiniteTrackAndAReportThatSaysSo) {
-    SimulatedSurvey made = smallSurvey();
+    SimulatedSurvey made = simulatedSurvey(smallField());
     GetParam().inflict(made.survey);
     SilentProgress silent;
     const auto products = process(made.survey, {}, silent, {});

@@ -10,30 +10,10 @@
 
 #include "app/pipeline/jobs.hpp"
 #include "app/pipeline/process.hpp"
+#include "tests/support/small_survey.hpp"
 
 namespace terrawalk {
 namespace {
-
-SimulationOptions smallSurvey() {
-    SimulationOptions options;
-    options.seed = 11;
-    options.area_east_m = 15;
-    options.area_north_m = 15;
-    options.line_spacing_m = 2;
-    options.fixed_point_runs = 2;
-    options.fixed_point_epochs = 120;
-    options.area_epochs = 1200;
-    options.control_stops = 2;
-    options.check_points = 12;
-    return options;
-}
-
-SimulatedSurvey simulated(const SimulationOptions& options) {
-    SilentProgress silent;
-    auto made = simulateSurvey(options, silent, {});
-    if (!made) throw std::runtime_error(made.error().text());
-    return std::move(*made);
-}
 
 Products processed(const Survey& survey, const PipelineConfig& config) {
     SilentProgress silent;
@@ -45,12 +25,12 @@ Products processed(const Survey& survey, const PipelineConfig& config) {
 // Exact sensors on an exact plane: every cell of the DEM lies on it. What stays is the rounding of float
 // heights.
 TEST(Process, ARampSurvivesFromTheLogsToTheDem) {
-    SimulationOptions options = smallSurvey();
+    SimulationOptions options = smallField();
     options.terrain = SimulatedTerrain::Ramp;
     options.faults = FaultLevel::None;
     options.noise_scale = 0;
     options.gnss = GnssMode::Rtk;
-    SimulatedSurvey ramp = simulated(options);
+    SimulatedSurvey ramp = simulatedSurvey(options);
     ramp.survey.crs.clear();
     // Without a barometer raw heights are those of the GNSS receiver, exact here. Barometric ones would start
     // from the height of the mark, and the tilted range finder sees the slope beside it.
@@ -75,12 +55,12 @@ TEST(Process, ARampSurvivesFromTheLogsToTheDem) {
 // The same in a projected CRS: each cell is taken back to the local frame by GeographicLib alone, without
 // PROJ.
 TEST(Process, ARampInUtmLiesWhereAnIndependentProjectionPutsIt) {
-    SimulationOptions options = smallSurvey();
+    SimulationOptions options = smallField();
     options.terrain = SimulatedTerrain::Ramp;
     options.faults = FaultLevel::None;
     options.noise_scale = 0;
     options.gnss = GnssMode::Rtk;
-    SimulatedSurvey ramp = simulated(options);
+    SimulatedSurvey ramp = simulatedSurvey(options);
     ASSERT_EQ(ramp.survey.crs, "EPSG:32649");
     for (terrawalk::Run& run : ramp.survey.runs) run.log.column(Channel::Pressure).clear();
     PipelineConfig config;
@@ -106,9 +86,9 @@ TEST(Process, ARampInUtmLiesWhereAnIndependentProjectionPutsIt) {
 }
 
 TEST(Process, CheckMarksNeverTouchTheProducts) {
-    SimulationOptions options = smallSurvey();
+    SimulationOptions options = smallField();
     options.check_stops = 2;
-    SimulatedSurvey s = simulated(options);
+    SimulatedSurvey s = simulatedSurvey(options);
     const Products before = processed(s.survey, {});
     for (ControlMark& mark : s.survey.marks) {
         if (mark.role == MarkRole::Check) mark.enu_m += Eigen::Vector3d(0.7, -0.4, 5.0);
@@ -136,7 +116,7 @@ TEST(Process, CheckMarksNeverTouchTheProducts) {
 }
 
 TEST(Process, OneThreadGivesTheBytesOfMany) {
-    const SimulatedSurvey s = simulated(smallSurvey());
+    const SimulatedSurvey s = simulatedSurvey(smallField());
     const Products many = processed(s.survey, {});
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     const Products single = processed(s.survey, {});
@@ -150,9 +130,9 @@ TEST(Process, FusionBringsTheTrackNearerToTheTruthThanTheSensorsAre) {
     double raw_m2 = 0;
     double fused_m2 = 0;
     for (const std::uint64_t seed : {31, 32, 33}) {
-        SimulationOptions options = smallSurvey();
+        SimulationOptions options = smallField();
         options.seed = seed;
-        const SimulatedSurvey s = simulated(options);
+        const SimulatedSurvey s = simulatedSurvey(options);
         PipelineConfig raw;
         raw.fusion.method = FusionMethod::Raw;
         const auto squaredError = [&](const Products& products) {
@@ -173,7 +153,7 @@ TEST(Process, FusionBringsTheTrackNearerToTheTruthThanTheSensorsAre) {
 }
 
 TEST(Process, AStopRequestEndsIt) {
-    const SimulatedSurvey s = simulated(smallSurvey());
+    const SimulatedSurvey s = simulatedSurvey(smallField());
     std::stop_source stop;
     stop.request_stop();
     SilentProgress silent;
@@ -195,7 +175,7 @@ TEST(Process, ProgressStaysInRangeAndEndsAtOne) {
         std::mutex mutex_;
         double last_ = 0.0;
     };
-    const SimulatedSurvey s = simulated(smallSurvey());
+    const SimulatedSurvey s = simulatedSurvey(smallField());
     Recorder recorder;
     ASSERT_TRUE(process(s.survey, {}, recorder, {}));
     EXPECT_NEAR(recorder.last_, 1.0, 1e-9);

@@ -18,7 +18,9 @@ using test::bytesOf;
 using test::RandomNumbers;
 using test::TemporaryFolder;
 using test::writeBytes;
+using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 void writePlane(const std::filesystem::path& file, const std::string& header, std::size_t count = 400) {
     RandomNumbers random(1);
@@ -123,6 +125,45 @@ TEST(Surface, RefusesContradictingUnitsAndItsOwnInput) {
     request.output = request.points;
     EXPECT_EQ(surfaceOf(request).error().kind, ErrorKind::Usage);
     EXPECT_FALSE(std::filesystem::exists(folder / "dem.tif"));
+}
+
+TEST(Surface, NeverReplacesWhatItReads) {
+    const TemporaryFolder folder;
+    writePlane(folder / "plane_uncertainty.tif.csv", "x_m,y_m,z_m");
+    const std::string lines = R"({"type":"FeatureCollection","features":[]})";
+    writeBytes(folder / "lines.json", lines);
+    SurfaceRequest request;
+    request.points = folder / "plane_uncertainty.tif.csv";
+    request.breaklines = folder / "lines.json";
+    request.output = folder / "lines.tif";
+    request.method = InterpolationMethod::Linear;
+    const auto outcome = surfaceOf(request);
+    ASSERT_FALSE(outcome);
+    EXPECT_EQ(outcome.error().kind, ErrorKind::Usage);
+    EXPECT_THAT(outcome.error().text(), HasSubstr("lines.json"));
+    EXPECT_EQ(bytesOf(folder / "lines.json"), lines);
+    EXPECT_FALSE(std::filesystem::exists(folder / "lines.tif"));
+}
+
+TEST(Surface, SaysWhenAnOlderUncertaintyLiesBesideIt) {
+    const TemporaryFolder folder;
+    writePlane(folder / "plane.csv", "x_m,y_m,z_m");
+    SurfaceRequest request;
+    request.points = folder / "plane.csv";
+    request.output = folder / "dem.tif";
+    request.resolution = 2.0;
+    request.cross_validate = false;
+    request.method = InterpolationMethod::Linear;
+    const auto alone = surfaceOf(request);
+    ASSERT_TRUE(alone);
+    EXPECT_THAT(alone->notes, Not(Contains(HasSubstr("dem_uncertainty.tif"))));
+    request.method = InterpolationMethod::Kriging;
+    ASSERT_TRUE(surfaceOf(request));
+    ASSERT_TRUE(std::filesystem::exists(folder / "dem_uncertainty.tif"));
+    request.method = InterpolationMethod::Linear;
+    const auto again = surfaceOf(request);
+    ASSERT_TRUE(again);
+    EXPECT_THAT(again->notes, Contains(HasSubstr("dem_uncertainty.tif")));
 }
 
 Result<VolumeOutcome> volumeOfFile(const VolumeRequest& request) {
