@@ -220,8 +220,8 @@ struct DriftFilterOptions {
 /// The joint adjustment of all runs.
 struct JointOptions {
     double knot_s = 1.0;  ///< between the knots of the track's correction
-    double heading_knot_s = 4.0;
-    double gnss_knot_s = 4.0;
+    double heading_knot_s = 1.0;
+    double gnss_knot_s = 1.0;
     double barometer_knot_s = 10.0;
     double acceleration_knot_s = 30.0;  ///< between the knots of the accelerometer's bias
     int rounds = 5;                     ///< Gauss-Newton rounds with crossovers
@@ -234,10 +234,10 @@ struct JointOptions {
     double pair_even_slope = 0.2;
     double pair_uneven_m = 0.07;
     double pair_apart_per_m = 0.35;
-    double pair_plan_share = 0.5;             ///< of the slope that turns errors of the plan into height
+    double pair_plan_share = 0.7;             ///< of the slope that turns errors of the plan into height
     double pair_weight = 0.2;                 ///< neighbouring pairs share their points
     double walk_mps_per_sqrt_s = 0.6;         ///< random walk of the horizontal velocity
-    double ground_roughness_m = 0.05;         ///< of the ground below the walk about its level
+    double ground_roughness_m = 0.03;         ///< of the ground below the walk about its level
     double ground_climb_m_per_sqrt_m = 0.06;  ///< by which that level wanders
     double acceleration_noise_mps2 = 0.03;    ///< white noise of the accelerometer; 0: it is not used
     double blind_climb_m_per_sqrt_s = 0.27;   ///< the same of the array where no range was measured
