@@ -5,6 +5,7 @@
 #include <array>
 
 #include "fusion/drift_model.hpp"
+#include "fusion/gnss_jumps.hpp"
 #include "fusion/rts_smoother.hpp"
 #include "fusion/run_filter.hpp"
 
@@ -98,6 +99,10 @@ Result<DriftFilterResult> filterWithDrifts(const Survey& survey, const Run& run,
     }
     result.fused.sensors = filter.sensors();
     filter.note(result.fused.notes.details);
+    result.gnss_jump_m = model.gnssJumpSizes();
+    if (std::string note = gnssJumpsNote(run.log, result.gnss_jump_m); !note.empty()) {
+        result.fused.notes.details.push_back(std::move(note));
+    }
     return result;
 }
 

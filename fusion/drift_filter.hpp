@@ -15,7 +15,8 @@ namespace terrawalk {
 /// A run after the filter with error states.
 struct DriftFilterResult {
     FusedRun fused;
-    std::vector<bool> gnss_gated;  ///< of each epoch: its GNSS position was dropped, being beyond the gate
+    std::vector<bool> gnss_gated;     ///< of each epoch: its GNSS position was dropped, being beyond the gate
+    std::vector<double> gnss_jump_m;  ///< of each epoch, see gnssJumps
 };
 
 /// Adaptive unscented Kalman filter with states for the errors that last (barometer drift and gusts, compass

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fusion/gnss_jumps.hpp"
 #include "fusion/unscented_transform.hpp"
 
 namespace terrawalk {
@@ -59,11 +60,6 @@ void addGaussMarkov(DriftTransition& step, int state, double sigma, double tau_s
 long fixCode(const ArrayLog& log, std::size_t epoch) {
     const double fix = log.value(Channel::Fix, epoch);
     return present(fix) ? std::lround(fix) : fix_code::kSingle;
-}
-
-double whiteShare(const ArrayLog& log, std::size_t epoch, const LastingErrorOptions& lasting) {
-    return fixCode(log, epoch) == fix_code::kRtkFixed ? lasting.gnss_white_share_fixed
-                                                      : lasting.gnss_white_share;
 }
 
 }  // namespace
@@ -128,7 +124,7 @@ DriftTransition driftTransition(const FusionOptions& options, double dt_s, const
     return step;
 }
 
-DriftModel::DriftModel(const ReadingContext& context) : context_(context) {
+DriftModel::DriftModel(const ReadingContext& context) : context_(context), gnss_jump_m_(gnssJumps(context)) {
     const FusionOptions& options = context.options;
     const RunReference& reference = context.reference;
     const LastingErrorOptions& lasting = options.lasting;
@@ -186,7 +182,7 @@ GnssErrorStep DriftModel::gnssStep(std::size_t epoch) {
     const long code = fixCode(log, epoch);
     step.renewed = code != fix_code_;
     fix_code_ = code;
-    const double share = std::sqrt(std::max(0.0, 1.0 - squared(whiteShare(log, epoch, options.lasting))));
+    const double share = std::sqrt(std::max(0.0, 1.0 - squared(gnssWhiteShare(log, epoch, options.lasting))));
     step.sigma_m = share * quality.sigma_m;
     step.sigma_up_m = share * quality.sigma_up_m;
     return step;
@@ -243,7 +239,8 @@ DriftRow DriftModel::row(std::size_t epoch, const Reading& reading, std::size_t 
             const double arm = reading.rows[r].gate_variance - total;
             row.direction.segment<3>(kEast) = given.direction;
             row.direction.segment<3>(kGnssErrorEast) = given.direction;
-            row.variance = factor * squared(whiteShare(context_.log, epoch, options.lasting)) * total + arm;
+            row.variance =
+                factor * squared(gnssWhiteShare(context_.log, epoch, options.lasting)) * total + arm;
             return row;
         }
         case Sensor::Barometer:
@@ -279,8 +276,11 @@ RowTest DriftModel::test(std::size_t epoch, const Reading& reading, std::size_t 
 
 void DriftModel::update(std::size_t epoch, const Reading& reading, std::size_t r, double excess) {
     DriftRow taken = row(epoch, reading, r);
-    if (context_.options.drift.adapt && reading.sensor != Sensor::MeanFlow) adapt(epoch, reading, taken);
-    taken.variance *= excess;
+    const bool of_gnss = reading.sensor == Sensor::GnssPosition || reading.sensor == Sensor::GnssHeight;
+    const double jump_m = of_gnss ? gnss_jump_m_[epoch] : 0.0;
+    const bool telling = reading.sensor != Sensor::MeanFlow && jump_m == 0.0;
+    if (context_.options.drift.adapt && telling) adapt(epoch, reading, taken);
+    taken.variance = taken.variance * excess + squared(jump_m);
     state_ = updated(state_, taken);
 }
 

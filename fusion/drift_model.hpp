@@ -92,6 +92,7 @@ class DriftModel final : public FilterModel {
     void readmit(std::size_t epoch, const Reading& reading) override;
 
     [[nodiscard]] const DriftEstimate& state() const { return state_; }
+    [[nodiscard]] const std::vector<double>& gnssJumpSizes() const { return gnss_jump_m_; }
     /// Factor on the variance of a sensor, as its innovations have it.
     [[nodiscard]] double noiseFactor(Sensor sensor) const {
         return factors_[static_cast<std::size_t>(sensor)].value;
@@ -115,6 +116,7 @@ class DriftModel final : public FilterModel {
     void adapt(std::size_t epoch, const Reading& reading, const DriftRow& row);
 
     const ReadingContext& context_;
+    std::vector<double> gnss_jump_m_;  // of each epoch; see gnssJumps
     DriftEstimate state_;
     std::vector<GnssErrorStep> gnss_steps_;  // one for each epoch predicted into, from the first on
     std::vector<Doubt> doubts_;

@@ -170,6 +170,7 @@ Result<FusedRun> fusedBy(const Survey& survey, const Run& run, const FusionOptio
                 filterWithDrifts(survey, run, options, whole.attitudes, whole.reference, progress, stop);
             if (!filtered) return tl::unexpected<Error>(filtered.error());
             whole.gnss_gated = std::move(filtered->gnss_gated);
+            whole.gnss_jump_m = std::move(filtered->gnss_jump_m);
             return std::move(filtered->fused);
         }
         case FusionMethod::Aukf:

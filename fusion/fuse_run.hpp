@@ -19,6 +19,7 @@ struct RunFusion {
     RunReference reference;
     /// Epochs whose GNSS position the filter with error states dropped; empty for the other methods.
     std::vector<bool> gnss_gated;
+    std::vector<double> gnss_jump_m;  ///< of each epoch, see gnssJumps; empty likewise
 };
 
 /// Takes one run's log to a trajectory in local ENU, one epoch for each row of the log.

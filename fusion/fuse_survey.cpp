@@ -55,7 +55,8 @@ Result<FusedSurvey> adjusted(const Survey& survey, std::vector<RunFusion> runs, 
     for (std::size_t i = 0; i < survey.runs.size(); ++i) {
         RunFusion& run = runs[i];
         starts.push_back({&survey.runs[i], std::move(run.attitudes), std::move(run.reference),
-                          std::move(run.fused.trajectory), std::move(run.gnss_gated)});
+                          std::move(run.fused.trajectory), std::move(run.gnss_gated),
+                          std::move(run.gnss_jump_m)});
         fused.runs.push_back(std::move(run.fused));
     }
     auto solution = adjustJointly(survey, starts, options, progress, stop);

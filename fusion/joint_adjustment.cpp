@@ -90,13 +90,6 @@ std::vector<RowGroup> rowGroups(bool robust) {
     return groups;
 }
 
-std::size_t fixClass(const ArrayLog& log, std::size_t i) {
-    const double fix = log.value(Channel::Fix, i);
-    if (!present(fix)) return 0;
-    if (std::lround(fix) == fix_code::kRtkFixed) return 2;
-    return std::lround(fix) == fix_code::kRtkFloat ? 1 : 0;
-}
-
 // Coefficients of one row under work.
 class RowBuilder {
   public:
@@ -178,6 +171,7 @@ struct GnssSegment {
 
 struct GnssEpoch {
     std::size_t epoch = 0;
+    std::size_t fix_class = 0;
     std::size_t segment = 0;
     Eigen::Vector3d enu_m;
     double white_m = 0.0;
@@ -213,9 +207,10 @@ class RunModel {
     std::vector<Eigen::Vector2d> flow_mps;
     std::vector<double> bridge_sigma_mps;  // zero where the flow was measured
     std::vector<bool> level_known;         // whether a range was measured about the knot
-    std::vector<double> plan_variance_m2;  // of each knot, per axis, as of the last solution
-    std::vector<double> above_ground_m;    // height of the array above the ground below it, spikes left out
-    std::vector<Chain::Place> at;          // of each epoch in `correction`
+    std::vector<double>
+        plan_variance_m2;                // of each knot, per axis, as of the last solution without crossovers
+    std::vector<double> above_ground_m;  // height of the array above the ground below it, spikes left out
+    std::vector<Chain::Place> at;        // of each epoch in `correction`
     std::vector<Chain::Place> psi_at;
     std::vector<Chain::Place> turn_at;
 
@@ -266,7 +261,8 @@ class JointAdjuster {
                                "use --method ukf, or leave out the run that has no position");
             }
             const double step_m = takeSolution(*solution);
-            takePlanVariances(system);
+            // Crossovers are not to be trusted more for what they themselves said of the plan.
+            if (!with_pairs) takePlanVariances(system);
             if (settled_) ++rounds;
             const bool last = rounds >= 2 * least || (rounds >= least && step_m < kFinalStep_m);
             if (!settled_ && robust && (step_m < kSettledStep_m || round >= kMostToSettle)) {
@@ -508,7 +504,6 @@ class JointAdjuster {
     void prepareGnss(RunModel& run) const {
         const RunStart& start = *run.start;
         const ArrayLog& log = *run.log;
-        const LastingErrorOptions& lasting = options_.lasting;
         if (!options_.gnss.use_position) return;
         for (std::size_t i = 0; i < log.size(); ++i) {
             const auto position = gnssPosition(log, i, frame_, start.attitudes[i], run.track_m[i].z());
@@ -516,23 +511,41 @@ class JointAdjuster {
             const GnssQuality quality = gnssQuality(log, i, options_.gnss);
             if (!quality.rejection.empty()) continue;
             if (!start.gnss_gated.empty() && start.gnss_gated[i]) continue;
-            const std::size_t fix_class = fixClass(log, i);
-            if (run.segments.empty() || run.segments.back().fix_class != fix_class) {
-                run.segments.push_back({fix_class, 0.0, 0.0, {}});
-            }
-            GnssSegment& segment = run.segments.back();
-            segment.error.cover(log.time_s[i], options_.joint.gnss_knot_s);
-            segment.sigma_m = std::max(segment.sigma_m, tableSigma(fix_class, false));
-            segment.sigma_up_m = std::max(segment.sigma_up_m, tableSigma(fix_class, true));
-            const double share = fix_class == 2 ? lasting.gnss_white_share_fixed : lasting.gnss_white_share;
             GnssEpoch epoch;
             epoch.epoch = i;
-            epoch.segment = run.segments.size() - 1;
+            epoch.fix_class = gnssFixClass(log, i);
             epoch.enu_m = position->enu_m;
             if (start.reference.gnss_height == GnssHeightUse::Never) epoch.enu_m.z() = kMissing;
+            const double share = gnssWhiteShare(log, i, options_.lasting);
             epoch.white_m = std::sqrt(squared(share * quality.sigma_m) + position->arm_variance_m2);
             epoch.white_up_m = std::sqrt(squared(share * quality.sigma_up_m) + position->arm_variance_up_m2);
             run.gnss.push_back(epoch);
+        }
+        partGnss(run);
+    }
+
+    // The lasting error starts anew where the kind of fix changes. A stretch that stands off has one of its
+    // own, as large as the jump; the one around it goes on after it.
+    void partGnss(RunModel& run) const {
+        const auto jump = [&](const GnssEpoch& gnss) {
+            return run.start->gnss_jump_m.empty() ? 0.0 : run.start->gnss_jump_m[gnss.epoch];
+        };
+        std::optional<std::size_t> sound, doubted;
+        for (std::size_t i = 0; i < run.gnss.size(); ++i) {
+            GnssEpoch& gnss = run.gnss[i];
+            const bool other_fix = i > 0 && run.gnss[i - 1].fix_class != gnss.fix_class;
+            if (other_fix) sound.reset();
+            if (other_fix || (i > 0 && jump(gnss) != jump(run.gnss[i - 1]))) doubted.reset();
+            std::optional<std::size_t>& current = jump(gnss) > 0.0 ? doubted : sound;
+            if (!current) {
+                current = run.segments.size();
+                run.segments.push_back({gnss.fix_class,
+                                        std::max(tableSigma(gnss.fix_class, false), jump(gnss)),
+                                        std::max(tableSigma(gnss.fix_class, true), jump(gnss)),
+                                        {}});
+            }
+            gnss.segment = *current;
+            run.segments[*current].error.cover(run.time(gnss.epoch), options_.joint.gnss_knot_s);
         }
     }
 
@@ -1197,15 +1210,40 @@ class JointAdjuster {
         position(run, epoch, 1, -sign * share * slope.y());
     }
 
-    void addPairs(SparseLeastSquares& system) {
+    // Of m passes over the same ground only so many differences are independent as there are passes, while
+    // pairs grow with their square: where more than kPairsOfAKnot meet, they share their weight.
+    static constexpr double kPairsOfAKnot = 3.0;
+
+    std::vector<double> pairCrowding() const {
+        std::vector<std::vector<double>> pairs_of_knot;
+        for (const RunModel& run : runs_) pairs_of_knot.emplace_back(run.correction.knots(), 0.0);
+        const auto count = [&](std::uint32_t run, std::uint32_t epoch) -> double& {
+            return pairs_of_knot[run][runs_[run].at[epoch].knot];
+        };
         for (const Crossover& pair : pairs_) {
+            count(pair.run_a, pair.epoch_a) += 1.0;
+            count(pair.run_b, pair.epoch_b) += 1.0;
+        }
+        std::vector<double> crowding;
+        for (const Crossover& pair : pairs_) {
+            const double pairs = 0.5 * (count(pair.run_a, pair.epoch_a) + count(pair.run_b, pair.epoch_b));
+            crowding.push_back(std::max(1.0, pairs / kPairsOfAKnot));
+        }
+        return crowding;
+    }
+
+    void addPairs(SparseLeastSquares& system) {
+        const std::vector<double> crowding = pairCrowding();
+        for (std::size_t p = 0; p < pairs_.size(); ++p) {
+            const Crossover& pair = pairs_[p];
             row_.clear();
             ground(runs_[pair.run_a], pair.epoch_a, pair.slope, 1.0);
             ground(runs_[pair.run_b], pair.epoch_b, pair.slope, -1.0);
             system.addRow(kPair, row_.all(), -pair.misfit_m,
                           pairSigma(pair.slope, pair.roughness_m,
                                     squared(pair.apart_m) + planVariance(pair.run_a, pair.epoch_a) +
-                                        planVariance(pair.run_b, pair.epoch_b)));
+                                        planVariance(pair.run_b, pair.epoch_b)) *
+                              std::sqrt(crowding[p]));
         }
         for (const MarkPass& pass : mark_passes_) {
             row_.clear();

@@ -20,8 +20,9 @@ struct RunStart {
     const Run* run = nullptr;
     std::vector<EpochAttitude> attitudes;  ///< one for each epoch
     RunReference reference;
-    Trajectory trajectory;         ///< of the filter, smoothed
-    std::vector<bool> gnss_gated;  ///< epochs whose GNSS position the filter rejected; may be empty
+    Trajectory trajectory;            ///< of the filter, smoothed
+    std::vector<bool> gnss_gated;     ///< epochs whose GNSS position the filter rejected; may be empty
+    std::vector<double> gnss_jump_m;  ///< of each epoch, see gnssJumps; may be empty
 };
 
 struct JointSolution {

@@ -273,6 +273,17 @@ std::vector<EpochAttitude> epochAttitudes(const ArrayLog& log, const AttitudeOpt
     return attitudes;
 }
 
+std::size_t gnssFixClass(const ArrayLog& log, std::size_t epoch) {
+    const double fix = log.value(Channel::Fix, epoch);
+    if (!present(fix)) return 0;
+    if (std::lround(fix) == fix_code::kRtkFixed) return 2;
+    return std::lround(fix) == fix_code::kRtkFloat ? 1 : 0;
+}
+
+double gnssWhiteShare(const ArrayLog& log, std::size_t epoch, const LastingErrorOptions& lasting) {
+    return gnssFixClass(log, epoch) == 2 ? lasting.gnss_white_share_fixed : lasting.gnss_white_share;
+}
+
 GnssQuality gnssQuality(const ArrayLog& log, std::size_t epoch, const GnssOptions& options) {
     GnssQuality quality;
     quality.correlation_s = options.correlation_s;

@@ -56,6 +56,10 @@ struct GnssQuality {
     double correlation_s = 0.0;
 };
 [[nodiscard]] GnssQuality gnssQuality(const ArrayLog& log, std::size_t epoch, const GnssOptions& options);
+/// 2 for RTK fixed, 1 for RTK float, 0 for all others and where the log does not say.
+[[nodiscard]] std::size_t gnssFixClass(const ArrayLog& log, std::size_t epoch);
+/// White noise of a position as a share of its sigma.
+[[nodiscard]] double gnssWhiteShare(const ArrayLog& log, std::size_t epoch, const LastingErrorOptions& lasting);
 
 /// Origin of the array in local ENU as GNSS has it.
 struct GnssPosition {

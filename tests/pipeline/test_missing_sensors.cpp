@@ -187,7 +187,7 @@ TEST(Silence, OfGnssForHalfAnHourIsBridgedByTheFlowAndSaid) {
     // 1.2 km of walk; 1 % of it.
     EXPECT_LT(worst_m, 12.0);
     // The track owns up to what it does not know: 1 were perfect; one outage holds few independent errors.
-    EXPECT_LT(squared_over_variance, 25.0);
+    EXPECT_LT(squared_over_variance, 10.0);
 }
 
 TEST(Silence, OfAllThatTellsAPositionIsNamedAndNothingIsDrawn) {

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fusion/sensor_readings.hpp"
+
+namespace terrawalk {
+
+/// A GNSS position of a run. Only positions with the same kind of fix are compared.
+struct GnssReading {
+    double time_s = 0.0;
+    Eigen::Vector2d en_m = Eigen::Vector2d::Zero();  ///< local east and north
+    double white_m = 0.0;                            ///< sigma of its white noise, per axis
+    std::size_t fix_class = 0;
+};
+
+/// Stretches whose positions stand off from those around them: a wrong fix, a reflected signal.
+///
+/// A jump is a step between successive positions that no walker makes: it differs from the median of the
+/// steps around it by more than noise and gait explain. Of the two pieces that a jump parts, the shorter one
+/// is doubted, for an error that comes and goes is shorter than the time without it. Where a receiver is
+/// wrong for most of a run, the wrong half is doubted; no method that sees positions alone knows better.
+/// @param readings  of one run, ordered by time
+/// @return for each reading zero, or the size [m] of the jump that set its piece off
+[[nodiscard]] std::vector<double> gnssJumps(std::span<const GnssReading> readings);
+
+/// The same for each epoch of a log; zero where an epoch has no position that may be used.
+[[nodiscard]] std::vector<double> gnssJumps(const ReadingContext& context);
+
+/// Says how many stretches stand off, for how long, and by how much; nothing when there are none.
+[[nodiscard]] std::string gnssJumpsNote(const ArrayLog& log, std::span<const double> jump_m);
+
+}  // namespace terrawalk

@@ -1,0 +1,99 @@
+#include "fusion/gnss_jumps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fusion/random_numbers.hpp"
+#include "survey/frames.hpp"
+
+namespace terrawalk {
+namespace {
+
+// A walk of 40 s on a circle at 0.8 m/s that sways with the gait; noise of 1 cm.
+std::vector<GnssReading> walk(double noise_m = 0.01) {
+    RandomNumbers random({7});
+    std::vector<GnssReading> readings;
+    for (int i = 0; i < 200; ++i) {
+        const double t = 0.2 * i;
+        const Eigen::Vector2d noise(random.normal(), random.normal());
+        const Eigen::Vector2d at(10.0 * std::cos(0.08 * t), 10.0 * std::sin(0.08 * t));
+        const Eigen::Vector2d gait(0.03 * std::sin(2.0 * kPi * t), 0.0);
+        readings.push_back({t, at + gait + noise_m * noise, noise_m, 2});
+    }
+    return readings;
+}
+
+void shift(std::vector<GnssReading>& readings, std::size_t from, std::size_t end, double east_m) {
+    for (std::size_t i = from; i < end; ++i) readings[i].en_m.x() += east_m;
+}
+
+void expectDoubted(const std::vector<GnssReading>& readings, std::size_t from, std::size_t end) {
+    const std::vector<double> jumps = gnssJumps(readings);
+    ASSERT_EQ(jumps.size(), readings.size());
+    for (std::size_t i = 0; i < jumps.size(); ++i) EXPECT_EQ(jumps[i] > 0.0, i >= from && i < end) << i;
+}
+
+TEST(GnssJumps, AWalkHasNone) {
+    expectDoubted(walk(), 0, 0);
+    expectDoubted(walk(0.3), 0, 0);
+}
+
+TEST(GnssJumps, AStretchThatStandsOffIsDoubtedByTheSizeOfItsJump) {
+    std::vector<GnssReading> readings = walk();
+    shift(readings, 60, 90, 0.4);
+    expectDoubted(readings, 60, 90);
+    EXPECT_NEAR(gnssJumps(readings)[75], 0.4, 0.1);
+}
+
+TEST(GnssJumps, TheShorterSideOfASingleJumpIsDoubted) {
+    std::vector<GnssReading> readings = walk();
+    shift(readings, 150, readings.size(), -0.5);
+    expectDoubted(readings, 150, readings.size());
+    readings = walk();
+    shift(readings, 50, readings.size(), -0.5);
+    expectDoubted(readings, 0, 50);
+}
+
+TEST(GnssJumps, ASingleOutlierIsDoubtedAlone) {
+    std::vector<GnssReading> readings = walk();
+    shift(readings, 100, 101, 3.0);
+    expectDoubted(readings, 100, 101);
+}
+
+// Where noise is worse than stated, its steps are not jumps.
+TEST(GnssJumps, NoiseThatIsUnderstatedMakesNone) {
+    std::vector<GnssReading> readings = walk(0.3);
+    for (GnssReading& reading : readings) reading.white_m = 0.01;
+    expectDoubted(readings, 0, 0);
+}
+
+TEST(GnssJumps, OtherKindsOfFixAndGapsAreNotCompared) {
+    std::vector<GnssReading> readings = walk();
+    shift(readings, 60, 90, 1.0);
+    for (std::size_t i = 60; i < 90; ++i) readings[i].fix_class = 1;
+    expectDoubted(readings, 0, 0);
+    readings = walk();
+    for (std::size_t i = 100; i < readings.size(); ++i) readings[i].time_s += 5.0;
+    shift(readings, 100, readings.size(), 6.0);
+    expectDoubted(readings, 0, 0);
+}
+
+TEST(GnssJumps, FewReadingsOrNoneAreTakenAsTheyAre) {
+    EXPECT_TRUE(gnssJumps(std::vector<GnssReading>{}).empty());
+    std::vector<GnssReading> two = walk();
+    two.resize(2);
+    expectDoubted(two, 0, 0);
+}
+
+TEST(GnssJumps, TheNoteCountsStretchesAndTheirTime) {
+    ArrayLog log;
+    for (int i = 0; i < 6; ++i) log.time_s.push_back(0.5 * i);
+    EXPECT_TRUE(gnssJumpsNote(log, std::vector<double>(6, 0.0)).empty());
+    const std::string note = gnssJumpsNote(log, std::vector<double>{0.0, 0.4, 0.4, 0.0, 0.7, 0.0});
+    EXPECT_NE(note.find("0.70 m"), std::string::npos) << note;
+    EXPECT_NE(note.find("2 times, for 2 s"), std::string::npos) << note;
+}
+
+}  // namespace
+}  // namespace terrawalk
