@@ -271,5 +271,29 @@ TEST(JointAdjustment, NoiseOfTheFlowDoesNotShrinkTheTrack) {
     EXPECT_LT(std::abs(scale), 0.01);
 }
 
+TEST(JointAdjustment, AWrongRtkFixOfFiveSecondsDoesNotMoveTheTrack) {
+    SimulationOptions options = smallField();
+    options.gnss = GnssMode::Rtk;
+    options.faults = FaultLevel::None;
+    SimulatedSurvey made = simulatedSurvey(options);
+    ArrayLog& log = made.survey.runs.back().log;
+    constexpr std::size_t kFrom = 500;
+    constexpr std::size_t kEnd = 525;
+    constexpr double kJump_m = 0.5;
+    for (std::size_t i = kFrom; i < kEnd; ++i) log.column(Channel::Latitude)[i] += kJump_m / 110600.0;
+    const FusedSurvey survey = fused(made.survey);
+    const FusedRun& run = survey.runs.back();
+    double worst_m = 0.0;
+    for (std::size_t i = kFrom; i < kEnd; ++i) {
+        const Eigen::Vector3d error =
+            run.trajectory.epochs[i].position_enu_m - made.truth.back().epochs[i].position_enu_m;
+        worst_m = std::max(worst_m, error.head<2>().norm());
+    }
+    EXPECT_LT(worst_m, 0.3 * kJump_m);
+    EXPECT_TRUE(std::any_of(run.notes.details.begin(), run.notes.details.end(), [](const std::string& note) {
+        return note.find("GNSS stands off by up to 0.5") != std::string::npos;
+    }));
+}
+
 }  // namespace
 }  // namespace terrawalk
