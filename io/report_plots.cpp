@@ -293,7 +293,9 @@ void drawMapKey(Svg& svg, const SurveyReport& report, const MapFrame& map, const
         svg.rectangle(x + 8, y + 6 - bar_px, 5, bar_px, "low");
         entry(fmt::format("{:g} m too high, too low{}", scale.key_m, scale.cuts ? " (longest cut)" : ""), 20);
     }
-    if (unnamed > 0) entry(fmt::format("{} names left out for room", unnamed), 0);
+    if (unnamed > 0)
+        entry(fmt::format("{} left out for room", unnamed == 1 ? "1 name" : fmt::format("{} names", unnamed)),
+              0);
 
     const double north_x = map.frame.right - 10;
     svg.polygon({{north_x, y - 22}, {north_x + 6, y + 8}, {north_x, y + 3}, {north_x - 6, y + 8}}, "ink");
