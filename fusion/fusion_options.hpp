@@ -236,6 +236,8 @@ struct JointOptions {
     double pair_apart_per_m = 0.35;
     double pair_plan_share = 0.7;             ///< of the slope that turns errors of the plan into height
     double pair_weight = 0.2;                 ///< neighbouring pairs share their points
+    /// Share of the ground, in cells of 10 m, whose crossovers only test the result.
+    double left_out_crossovers = 0.0;
     double walk_mps_per_sqrt_s = 0.6;         ///< random walk of the horizontal velocity
     double ground_roughness_m = 0.03;         ///< of the ground below the walk about its level
     double ground_climb_m_per_sqrt_m = 0.06;  ///< by which that level wanders

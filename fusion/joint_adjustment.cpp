@@ -11,6 +11,7 @@
 
 #include "fusion/barometer.hpp"
 #include "fusion/position_bends.hpp"
+#include "fusion/random_numbers.hpp"
 #include "fusion/sparse_least_squares.hpp"
 
 namespace terrawalk {
@@ -62,10 +63,13 @@ std::vector<RowGroup> rowGroups(bool robust) {
     set(kTieH, "mark ties, plan", Loss::Square, 3.0, false);
     set(kTieV, "mark ties, height", Loss::Huber, 3.0, false);
     static const std::array<std::string, 3> kFixes{"single", "RTK float", "RTK fixed"};
+    // A fixed position does not drift by more than its sigma; what seems to is the sway of the walk.
+    constexpr std::size_t kRtkFixed = 2;
     for (std::size_t f = 0; f < 3; ++f) {
-        set(kGnssH + f, "GNSS noise, plan, " + kFixes[f], Loss::Cauchy, 3.0, true);
+        set(kGnssH + f, "GNSS noise, plan, " + kFixes[f], Loss::Cauchy, 3.0, true, 0.5);
         set(kGnssV + f, "GNSS noise, height, " + kFixes[f], Loss::Cauchy, 3.0, true);
-        set(kGnssWalkH + f, "GNSS drift, plan, " + kFixes[f], Loss::Cauchy, 2.0, true, 0.3, 3.0);
+        set(kGnssWalkH + f, "GNSS drift, plan, " + kFixes[f], Loss::Cauchy, 2.0, true, 0.3,
+            f == kRtkFixed ? 1.0 : 3.0);
         set(kGnssWalkV + f, "GNSS drift, height, " + kFixes[f], Loss::Cauchy, 2.0, true, 0.3, 3.0);
     }
     set(kDoppler, "GNSS velocity", Loss::Cauchy, 3.0, true);
@@ -85,8 +89,8 @@ std::vector<RowGroup> rowGroups(bool robust) {
     set(kAccelerationH, "accelerometer, plan", Loss::Huber, 3.0, true, 0.2, 50.0);
     set(kAccelerationV, "accelerometer, height", Loss::Huber, 3.0, true, 0.2, 50.0);
     set(kAccelerationBias, "accelerometer bias", Loss::Square, 3.0, false);
-    set(kPair, "crossovers", Loss::Cauchy, 3.0, true, 0.9, 5.0);
-    set(kMarkPass, "passes over marks", Loss::Cauchy, 3.0, true, 0.9, 5.0);
+    set(kPair, "crossovers", Loss::Cauchy, 3.0, true, 0.5, 5.0);
+    set(kMarkPass, "passes over marks", Loss::Cauchy, 3.0, true, 0.5, 5.0);
     return groups;
 }
 
@@ -247,7 +251,10 @@ class JointAdjuster {
             const bool robust = round > 0;
             const bool with_pairs = options_.joint.use_crossovers && settled_;
             if (options_.joint.use_crossovers && (round == 0 || with_pairs)) findPairs();
-            if (round == 0) result.summary.misfit_before_m = misfit();
+            if (round == 0) {
+                result.summary.misfit_before_m = misfit(pairs_);
+                result.summary.left_out.before_m = misfit(left_out_);
+            }
             SparseLeastSquares system(unknowns_, robust ? groups : rowGroups(false), stop_);
             addRows(system, with_pairs);
             if (stop_.stop_requested()) return cancelled();
@@ -267,7 +274,8 @@ class JointAdjuster {
             const bool last = rounds >= 2 * least || (rounds >= least && step_m < kFinalStep_m);
             if (!settled_ && robust && (step_m < kSettledStep_m || round >= kMostToSettle)) {
                 settled_ = true;
-                height_inflation_ = heightInflation(system);
+                if (options_.joint.use_crossovers) result.summary.crossover_test = testHeights(system);
+                height_inflation_ = heightInflation(result.summary.crossover_test);
             }
             // Residuals of a track that is still on its way say nothing of the noise.
             if (settled_) {
@@ -293,7 +301,9 @@ class JointAdjuster {
         result.summary.height_inflation = height_inflation_;
         if (options_.joint.use_crossovers) {
             findPairs();
-            result.summary.misfit_after_m = misfit();
+            result.summary.misfit_after_m = misfit(pairs_);
+            result.summary.left_out.after_m = misfit(left_out_);
+            result.summary.left_out.n = left_out_.size();
             result.crossovers = pairs_;
             result.summary.crossovers = pairs_.size();
         }
@@ -540,13 +550,20 @@ class JointAdjuster {
             if (!current) {
                 current = run.segments.size();
                 run.segments.push_back({gnss.fix_class,
-                                        std::max(tableSigma(gnss.fix_class, false), jump(gnss)),
-                                        std::max(tableSigma(gnss.fix_class, true), jump(gnss)),
+                                        std::max(lastingSigma(gnss.fix_class, false), jump(gnss)),
+                                        std::max(lastingSigma(gnss.fix_class, true), jump(gnss)),
                                         {}});
             }
             gnss.segment = *current;
             run.segments[*current].error.cover(run.time(gnss.epoch), options_.joint.gnss_knot_s);
         }
+    }
+
+    // What the white noise leaves of the sigma of a fix.
+    double lastingSigma(std::size_t fix_class, bool up) const {
+        const double white =
+            fix_class == 2 ? options_.lasting.gnss_white_share_fixed : options_.lasting.gnss_white_share;
+        return tableSigma(fix_class, up) * std::sqrt(std::max(0.1, 1.0 - squared(white)));
     }
 
     double tableSigma(std::size_t fix_class, bool up) const {
@@ -1163,6 +1180,10 @@ class JointAdjuster {
     void findPairs() {
         const std::vector<GroundSample> samples = groundSamples();
         pairs_ = findCrossovers(samples, options_.joint.crossovers);
+        const auto kept = std::stable_partition(pairs_.begin(), pairs_.end(),
+                                                [&](const Crossover& c) { return !isLeftOut(c); });
+        left_out_.assign(kept, pairs_.end());
+        pairs_.erase(kept, pairs_.end());
         mark_passes_.clear();
         for (const ControlMark& mark : survey_.marks) {
             if (mark.role != MarkRole::Control || onlyShowsErrors(mark)) continue;
@@ -1180,10 +1201,20 @@ class JointAdjuster {
         });
     }
 
-    double misfit() const {
+    // Whole cells of the ground, as neighbouring pairs share their points.
+    bool isLeftOut(const Crossover& pair) const {
+        constexpr double kCell_m = 10.0;
+        const auto cell = [](double metres) {
+            return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(metres / kCell_m)));
+        };
+        const double draw = unitInterval(scramble({cell(pair.place_m.x()), cell(pair.place_m.y())}));
+        return draw < options_.joint.left_out_crossovers;
+    }
+
+    static double misfit(const std::vector<Crossover>& pairs) {
         double sum = 0.0;
-        for (const Crossover& pair : pairs_) sum += squared(pair.misfit_m);
-        return pairs_.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(pairs_.size()));
+        for (const Crossover& pair : pairs) sum += squared(pair.misfit_m);
+        return pairs.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(pairs.size()));
     }
 
     // Planes fit where the ground is even; where it is not, they fit the worse the farther apart the passes
@@ -1316,17 +1347,13 @@ class JointAdjuster {
         }
     }
 
-    // Before the crossovers are used they test the track: squared misfits over what its covariance predicts.
-    // Passes close in time share their errors, so they do not count.
-    double heightInflation(SparseLeastSquares& system) {
+    // Before the crossovers are used they test the track: misfits over what its covariance predicts. Passes
+    // close in time share their errors, so they do not count.
+    SigmaCoverage testHeights(SparseLeastSquares& system) {
         constexpr double kApart_s = 120.0;
-        constexpr double kOutlier = 25.0;
-        constexpr std::size_t kFewest = 30;
-        constexpr double kGreatest = 4.0;
-        if (!options_.joint.use_crossovers) return 1.0;
+        constexpr double kOutlier = 5.0;
         findPairs();
-        double sum = 0.0;
-        std::size_t n = 0;
+        SigmaCoverage test;
         const auto heightVariance = [&](std::uint32_t run, std::uint32_t epoch) {
             const std::size_t u = runs_[run].correction.unknown(runs_[run].at[epoch].knot, 2);
             return system.covariance(u, u);
@@ -1340,15 +1367,18 @@ class JointAdjuster {
             const double own =
                 squared(pairSigma(pair.slope, pair.roughness_m, squared(pair.apart_m) + plan)) *
                 options_.joint.pair_weight;
-            const double predicted =
-                heightVariance(pair.run_a, pair.epoch_a) + heightVariance(pair.run_b, pair.epoch_b) + own;
-            sum += std::min(kOutlier, squared(pair.misfit_m) / predicted);
-            ++n;
+            const double sigma = std::sqrt(heightVariance(pair.run_a, pair.epoch_a) +
+                                           heightVariance(pair.run_b, pair.epoch_b) + own);
+            test.add(std::clamp(pair.misfit_m, -kOutlier * sigma, kOutlier * sigma), sigma);
         }
-        if (n < kFewest) return 1.0;
+        return test;
+    }
+
+    static double heightInflation(const SigmaCoverage& test) {
+        constexpr std::size_t kFewest = 30;
         // Crossovers bind a track more than they test it: what they leave is judged with a margin.
-        constexpr double kMargin = 1.4;
-        return std::clamp(kMargin * sum / static_cast<double>(n), 1.0, kGreatest);
+        constexpr double kMargin = 2.2;
+        return test.n < kFewest ? 1.0 : std::clamp(kMargin * test.mean_square, 0.65, 4.0);
     }
 
     void wantCovariances(SparseLeastSquares& system) const {
@@ -1363,6 +1393,14 @@ class JointAdjuster {
                 }
             }
         }
+    }
+
+    // Slopes of the ground tell where a track lies, and pairs side by side err alike in it: of what the
+    // crossovers take off the variance of the plan, only a part is believed.
+    static double planInflation(const RunModel& run, std::size_t knot, double with_crossovers_m2) {
+        constexpr double kBelieved = 0.4;
+        const double without = std::max(run.plan_variance_m2[knot], with_crossovers_m2);
+        return kBelieved + (1.0 - kBelieved) * without / with_crossovers_m2;
     }
 
     Trajectory trajectory(const RunModel& run, SparseLeastSquares& system) const {
@@ -1397,8 +1435,9 @@ class JointAdjuster {
                 }
             }
             Eigen::Matrix3d p = g * g * here + f * f * there + g * f * (cross + cross.transpose());
-            // The variance of heights grows, correlations stay.
-            const Eigen::Vector3d inflate(1.0, 1.0, std::sqrt(height_inflation_));
+            // Variances are scaled, correlations stay.
+            const double plan = std::sqrt(planInflation(run, at.knot, 0.5 * (here(0, 0) + here(1, 1))));
+            const Eigen::Vector3d inflate(plan, plan, std::sqrt(height_inflation_));
             p = inflate.asDiagonal() * p * inflate.asDiagonal();
             epoch.covariance.setZero();
             epoch.covariance.topLeftCorner<3, 3>() = p;
@@ -1425,6 +1464,7 @@ class JointAdjuster {
     std::size_t unknowns_ = 0;
     double height_inflation_ = 1.0;
     std::vector<Crossover> pairs_;
+    std::vector<Crossover> left_out_;  // only tests
     std::vector<MarkPass> mark_passes_;
     RowBuilder row_;
     std::vector<double> scratch_;

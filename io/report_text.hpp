@@ -27,7 +27,7 @@ namespace terrawalk {
 ///         east ...        null or {n, marks, mean_m, sd_m, rmse_m, rmse_95_m: [low, high] or null, mae_m,
 ///         median_m,
 ///                         nmad_m, largest_m}
-///         up_coverage     null or {n, within_1_96_sigma}
+///         up_coverage     null or {n, within_1_96_sigma, mean_square}: of error over sigma
 ///     residuals           [{stage, quantity, mark, role, run, mark_enu_m, difference_enu_m, sigma_enu_m,
 ///                         used_by_estimator}]                vectors are [e, n, u]
 ///     missing_residuals   [{stage, quantity, mark, role, run}]

@@ -361,12 +361,25 @@ std::string adjustmentSection(const std::optional<AdjustmentSummary>& adjustment
                                 metres3(a.misfit_before_m), metres3(a.misfit_after_m)));
     rows += pairRow("Rounds", fmt::format("{}, the last of which moved a track by {} m RMS", a.rounds,
                                           metres3(a.last_step_m)));
-    rows +=
-        pairRow("Variance of heights",
-                a.height_inflation > 1.0
-                    ? fmt::format("multiplied by {}: crossovers differ by more than the filter's sigmas say",
-                                  fixedDecimals(a.height_inflation, 2))
-                    : "kept: crossovers agree with the sigmas");
+    if (a.crossover_test.n > 0) {
+        rows +=
+            pairRow("Their test of the sigmas",
+                    fmt::format("{} of {} differences lie within 1.96 predicted sigmas, the mean square of "
+                                "difference over sigma is {}; before crossovers were used",
+                                groupedDigits(a.crossover_test.within), groupedDigits(a.crossover_test.n),
+                                fixedDecimals(a.crossover_test.mean_square, 2)));
+    }
+    if (a.left_out.n > 0) {
+        rows += pairRow("Crossovers left out of the adjustment",
+                        fmt::format("{}; their heights differ by {} m RMS after the filter, {} m after the "
+                                    "adjustment",
+                                    groupedDigits(a.left_out.n), metres3(a.left_out.before_m),
+                                    metres3(a.left_out.after_m)));
+    }
+    rows += pairRow("Variance of heights", a.crossover_test.n == 0
+                                               ? "kept: no crossovers to test it"
+                                               : fmt::format("multiplied by {}, see the crossovers' test",
+                                                             fixedDecimals(a.height_inflation, 2)));
     std::string noise =
         "<tr><th>Source of noise</th><th class=\"number\">Rows</th><th class=\"number\">Sigma "
         "times</th><th class=\"number\">Down-weighted</th></tr>\n";

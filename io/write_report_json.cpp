@@ -45,6 +45,12 @@ Json statisticsJson(const std::optional<ErrorStatistics>& s) {
             {"largest_m", jsonNumber(s->largest_m)}};
 }
 
+Json coverageJson(const SigmaCoverage& coverage) {
+    return {{"n", coverage.n},
+            {"within_1_96_sigma", coverage.within},
+            {"mean_square", jsonNumber(coverage.mean_square)}};
+}
+
 Json groupNameJson(const AccuracyGroup& group) {
     return {{"stage", name(group.stage)}, {"quantity", name(group.quantity)}, {"role", name(group.role)}};
 }
@@ -56,9 +62,7 @@ Json groupJson(const AccuracyGroup& group) {
     json["up"] = statisticsJson(group.up);
     json["horizontal"] = statisticsJson(group.horizontal);
     json["up_coverage"] = nullptr;
-    if (group.up_coverage) {
-        json["up_coverage"] = {{"n", group.up_coverage->n}, {"within_1_96_sigma", group.up_coverage->within}};
-    }
+    if (group.up_coverage) json["up_coverage"] = coverageJson(*group.up_coverage);
     return json;
 }
 
@@ -192,7 +196,11 @@ Json adjustmentJson(const std::optional<AdjustmentSummary>& adjustment) {
             {"crossovers", a.crossovers},
             {"misfit_before_m", a.misfit_before_m},
             {"misfit_after_m", a.misfit_after_m},
-            {"height_variance_inflation", a.height_inflation},
+            {"left_out_crossovers", a.left_out.n},
+            {"left_out_misfit_before_m", a.left_out.before_m},
+            {"left_out_misfit_after_m", a.left_out.after_m},
+            {"crossover_test", coverageJson(a.crossover_test)},
+            {"height_variance_factor", a.height_inflation},
             {"rounds", a.rounds},
             {"last_step_m", a.last_step_m},
             {"settled", a.settled},

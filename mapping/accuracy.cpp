@@ -16,7 +16,6 @@ namespace {
 constexpr std::size_t kResamples = 4000;
 constexpr std::size_t kLeastMarksForInterval = 5;
 constexpr double kNormalMad = 1.4826;   // NMAD of a normal distribution is its sigma
-constexpr double kNormal95 = 1.959964;  // two-sided 95 % of a normal distribution
 
 /// Steele, Lea and Flood 2014; standard generators differ between libraries in what they make of a seed.
 class SplitMix64 {
@@ -102,8 +101,7 @@ std::optional<SigmaCoverage> heightCoverage(const std::vector<const Residual*>& 
     for (const Residual* residual : residuals) {
         const double d = residual->difference_enu_m.z(), sigma = residual->sigma_enu_m.z();
         if (!std::isfinite(d) || !std::isfinite(sigma)) continue;
-        ++coverage.n;
-        if (std::abs(d) <= kNormal95 * sigma) ++coverage.within;
+        coverage.add(d, sigma);
     }
     if (coverage.n == 0) return std::nullopt;
     return coverage;

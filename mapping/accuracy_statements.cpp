@@ -224,8 +224,11 @@ std::string gainStatement(const SurveyReport& report, const AccuracyGroup& after
 
 std::string coverageStatement(const SigmaCoverage& coverage) {
     std::string text = fmt::format(
-        "{} of {} heights ({:.0f} %) lie within 1.96 predicted sigmas; 95 % would be right", coverage.within,
-        coverage.n, 100.0 * static_cast<double>(coverage.within) / static_cast<double>(coverage.n));
+        "{} of {} heights ({:.0f} %) lie within 1.96 predicted sigmas; 95 % would be right. The mean square "
+        "of "
+        "error over sigma is {:.2f}; 1 would be right",
+        coverage.within, coverage.n,
+        100.0 * static_cast<double>(coverage.within) / static_cast<double>(coverage.n), coverage.mean_square);
     text += coverage.n < kFewForCoverage ? ", but so few decide little." : ".";
     return text;
 }

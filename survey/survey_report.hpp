@@ -73,11 +73,6 @@ struct MissingResidual {
     std::string run;  ///< run that stood on the mark; empty but for the array's position
 };
 
-/// How honest the predicted sigmas are: of n differences, those within 1.96 sigma. 95 % is right.
-struct SigmaCoverage {
-    std::size_t n = 0;
-    std::size_t within = 0;
-};
 
 /// Statistics of one group of residuals. Horizontal is the length of (e, n): its mean, RMSE, MAE and median
 /// are those of the distance, its SD and NMAD the spread of the distance, never negative.

@@ -69,18 +69,37 @@ struct NoiseFactor {
     std::size_t down_weighted = 0;  ///< rows that count for less than half
 };
 
+/// How honest predicted sigmas are, by n differences that they had no part in.
+struct SigmaCoverage {
+    std::size_t n = 0;
+    std::size_t within = 0;    ///< 1.96 sigma; 95 % of n is right
+    double mean_square = 0.0;  ///< of difference over sigma; 1 is right
+    void add(double difference, double sigma) {
+        const double square = difference * difference / (sigma * sigma);
+        if (square <= 1.96 * 1.96) ++within;
+        ++n;
+        mean_square += (square - mean_square) / static_cast<double>(n);
+    }
+};
+
 /// What the adjustment of all runs came to.
 struct AdjustmentSummary {
     std::size_t unknowns = 0;
     std::size_t crossovers = 0;    ///< pairs of passes over the same ground
     double misfit_before_m = 0.0;  ///< RMS of their heights' differences on the filter's tracks
     double misfit_after_m = 0.0;
-    /// Factor on the variance of heights by an internal test: misfits of crossovers that the track knew
-    /// nothing of, over their predicted variance. At least 1.
-    double height_inflation = 1.0;
-    int rounds = 0;            ///< with crossovers
-    double last_step_m = 0.0;  ///< RMS by which the last of them moved the run that moved most, in plan
-    bool settled = false;      ///< whether that is little enough
+    struct LeftOut {
+        std::size_t n = 0;
+        double before_m = 0.0, after_m = 0.0;  ///< as above
+    };
+    LeftOut left_out;  ///< crossovers that only test, where the options ask for some
+    /// Misfits of crossovers over their predicted sigma, before the crossovers had a part in the tracks.
+    /// Passes of one run close in time share their errors and do not count.
+    SigmaCoverage crossover_test;
+    double height_inflation = 1.0;  ///< factor on the variance of heights that follows from this test
+    int rounds = 0;                 ///< with crossovers
+    double last_step_m = 0.0;       ///< RMS by which the last of them moved the run that moved most, in plan
+    bool settled = false;           ///< whether that is little enough
     std::vector<NoiseFactor> noise;
 };
 

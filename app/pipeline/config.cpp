@@ -563,6 +563,9 @@ std::vector<Parameter> surfaceParameters() {
                TERRAWALK_FIELD(fusion.joint.pair_plan_share)),
         number("fusion.joint.pair_weight", 0.01, 1, "neighbouring crossovers share points",
                TERRAWALK_FIELD(fusion.joint.pair_weight)),
+        number("fusion.joint.left_out_crossovers", 0, 0.9,
+               "share of the ground, in cells of 10 m, whose crossovers only test the result",
+               TERRAWALK_FIELD(fusion.joint.left_out_crossovers)),
         number("fusion.joint.walk_mps_per_sqrt_s", 0.01, 100, "random walk of the horizontal velocity",
                TERRAWALK_FIELD(fusion.joint.walk_mps_per_sqrt_s)),
         number("fusion.joint.ground_roughness_m", 0.001, 10, "of the ground below the walk about its level",
@@ -581,7 +584,7 @@ std::vector<Parameter> surfaceParameters() {
 }
 
 // An option that is added without a parameter could be neither set nor reported.
-static_assert(sizeof(FusionOptions) == 1216, "add the new option to fusionParameters()");
+static_assert(sizeof(FusionOptions) == 1224, "add the new option to fusionParameters()");
 static_assert(sizeof(AukfOptions) == 168, "add the new option to aukfParameters()");
 static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
 static_assert(sizeof(SurfaceOptions) == 32, "add the new option to surfaceParameters()");

@@ -49,7 +49,8 @@ TEST(AccuracyMeasure, ExactSensorsReachTheFloor) {
     EXPECT_EQ(m.check_points, 500U);
     EXPECT_GT(m.surface_check_points, 400U);
     EXPECT_EQ(m.fixed_point_runs, 4U);
-    EXPECT_EQ(m.height_coverage, 1.0);
+    // Noise is learnt from the residuals, so sigmas shrink with it, but a normal error may pass 1.96 of them.
+    EXPECT_GT(m.height_coverage, 0.95);
 }
 
 TEST(AccuracyMeasure, FindsAKnownError) {
