@@ -111,10 +111,25 @@ void EdgeStrips::occupy(const Segment& segment) {
     });
 }
 
-void EdgeStrips::add(const std::vector<RiserPlace>& line, const Vector2d& origin_m) {
+void EdgeStrips::keepClearOf(const Breakline& line) {
+    std::vector<Vector2d> places_m;
+    for (const Vector3d& vertex : line.vertices_m) places_m.emplace_back(vertex.head<2>() - origin_m_);
+    const bool ring = line.kind == BreaklineKind::Boundary || line.kind == BreaklineKind::Hole;
+    if (ring && !places_m.empty()) places_m.push_back(places_m.front());
+    for (std::size_t i = 1; i < places_m.size(); ++i) {
+        // In pieces no longer than a cell, so that each lies in few of them.
+        const Vector2d way = places_m[i] - places_m[i - 1];
+        const double parts = std::max(1.0, std::ceil(way.norm() / cell_m_));
+        for (double k = 0.0; k < parts; k += 1.0) {
+            occupy({places_m[i - 1] + k / parts * way, places_m[i - 1] + (k + 1.0) / parts * way});
+        }
+    }
+}
+
+void EdgeStrips::add(const std::vector<RiserPlace>& line) {
     std::vector<std::vector<Rung>> pieces(1);
     const auto onGround = [&](const Vector3d& place_m) {
-        return tin_.heightAt(place_m.x() + origin_m.x(), place_m.y() + origin_m.y()).has_value();
+        return tin_.heightAt(place_m.x() + origin_m_.x(), place_m.y() + origin_m_.y()).has_value();
     };
     // A line may not meet itself either, but it touches the two outlines right before.
     constexpr std::size_t kTouching = 2;
@@ -152,7 +167,7 @@ void EdgeStrips::add(const std::vector<RiserPlace>& line, const Vector2d& origin
     occupyFrom(occupied, outlines.size());
     for (const std::vector<Rung>& piece : pieces) {
         if (piece.size() < 2) continue;
-        TerraceEdge edge = edgeOf(piece, origin_m);
+        TerraceEdge edge = edgeOf(piece, origin_m_);
         if (edge.length_m < options_.least_length_m || edge.step_m < options_.least_step_m) continue;
         edges_.push_back(std::move(edge));
     }

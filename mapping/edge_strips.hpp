@@ -8,6 +8,7 @@
 #include "mapping/delaunay_tin.hpp"
 #include "mapping/riser_line.hpp"
 #include "mapping/terrace_edges.hpp"
+#include "survey/breakline.hpp"
 
 namespace terrawalk {
 
@@ -16,12 +17,15 @@ namespace terrawalk {
 class EdgeStrips {
   public:
     /// @param tin  the ground, kept by reference
+    /// @param origin_m  of the risers' frame in that of the triangulation
     /// @param cell_m  side of the cells that segments are looked up by, about their length
-    EdgeStrips(const DelaunayTin& tin, const TerraceEdgeOptions& options, double cell_m)
-        : tin_(tin), options_(options), cell_m_(cell_m) {}
+    EdgeStrips(const DelaunayTin& tin, const Eigen::Vector2d& origin_m, const TerraceEdgeOptions& options,
+               double cell_m)
+        : tin_(tin), origin_m_(origin_m), options_(options), cell_m_(cell_m) {}
 
-    /// @param origin_m  of the line's frame in that of the triangulation
-    void add(const std::vector<RiserPlace>& line, const Eigen::Vector2d& origin_m);
+    /// A line in the frame of the triangulation that no edge may cross.
+    void keepClearOf(const Breakline& line);
+    void add(const std::vector<RiserPlace>& line);
     [[nodiscard]] const std::vector<TerraceEdge>& edges() const { return edges_; }
 
   private:
@@ -32,6 +36,7 @@ class EdgeStrips {
     bool visitCells(const Segment& segment, See see) const;
 
     const DelaunayTin& tin_;
+    Eigen::Vector2d origin_m_;
     TerraceEdgeOptions options_;
     double cell_m_;
     std::map<std::pair<double, double>, std::vector<Segment>> occupied_;

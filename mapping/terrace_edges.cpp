@@ -77,7 +77,7 @@ StepScale scaleOf(const DelaunayTin& tin, const std::vector<Vector3d>& points_m,
 
 Result<void> check(const TerraceEdgeOptions& options) {
     for (const double value : {options.least_step_m, options.greatest_width_m, options.least_slope,
-                               options.least_length_m, options.greatest_reach_m}) {
+                               options.least_length_m, options.greatest_reach_m, options.metres_per_unit}) {
         if (!(value > 0.0) || !std::isfinite(value)) {
             return usageError("the least and greatest of a terrace edge must be above zero");
         }
@@ -107,22 +107,20 @@ std::vector<RiserPlace> startsOf(const RiserSearch& search, const std::stop_toke
     return starts;
 }
 
-}  // namespace
+void scale(std::vector<Vector3d>& places_m, double factor) {
+    for (Vector3d& place : places_m) place *= factor;
+}
 
-Result<TerraceEdges> findTerraceEdges(const std::vector<Vector3d>& points_m,
-                                      const TerraceEdgeOptions& options, Progress& progress,
-                                      std::stop_token stop) {
-    if (auto checked = check(options); !checked) return tl::unexpected(checked.error());
-    if (auto checked = checkCoordinates(points_m); !checked) return tl::unexpected(checked.error());
+/// @param points  in curve order, no two at one place
+Result<TerraceEdges> findInMetres(std::vector<Vector3d> points, const std::vector<Breakline>& lines,
+                                  const TerraceEdgeOptions& options, Progress& progress,
+                                  const std::stop_token& stop) {
     TerraceEdges result;
-    if (points_m.size() < kLeastPoints) return result;
-    std::vector<Vector3d> points = placedHeights(points_m, {}).points_m;
     PartialProgress triangulating(progress, 0.0, 0.2);
     const auto tin = DelaunayTin::build(points, {}, triangulating, stop);
     if (!tin) return tl::unexpected(tin.error());
     const StepScale scale = scaleOf(*tin, points, options);
-    result.reach_m = scale.reach_m;
-    result.along_m = scale.along_m;
+    result.longest_edge_m = tin->longestEdge_m();
 
     const Vector2d origin_m = lowestCorner(points);
     for (Vector3d& point : points) point.head<2>() -= origin_m;
@@ -132,7 +130,8 @@ Result<TerraceEdges> findTerraceEdges(const std::vector<Vector3d>& points_m,
     const std::vector<RiserPlace> starts = startsOf(search, stop);
 
     RiserPlaces covered(scale.reach_m), refused(scale.reach_m);
-    EdgeStrips strips(*tin, options, scale.along_m);
+    EdgeStrips strips(*tin, origin_m, options, scale.along_m);
+    for (const Breakline& line : lines) strips.keepClearOf(line);
     for (std::size_t i = 0; i < starts.size(); ++i) {
         if (stop.stop_requested()) return cancelled();
         progress.report(0.6 + 0.4 * static_cast<double>(i) / static_cast<double>(starts.size()),
@@ -145,11 +144,46 @@ Result<TerraceEdges> findTerraceEdges(const std::vector<Vector3d>& points_m,
         if (line.size() < 2) continue;
         const bool accepted = evidenceOf(line, search) >= kLeastEvidence;
         for (const RiserPlace& place : line) (accepted ? covered : refused).add(place);
-        if (accepted) strips.add(line, origin_m);
+        if (accepted) strips.add(line);
     }
     if (stop.stop_requested()) return cancelled();
     result.edges = strips.edges();
     return result;
+}
+
+}  // namespace
+
+Result<TerraceEdges> findTerraceEdges(const std::vector<Vector3d>& points_m,
+                                      const std::vector<Breakline>& lines, const TerraceEdgeOptions& options,
+                                      Progress& progress, std::stop_token stop) {
+    if (auto checked = check(options); !checked) return tl::unexpected(checked.error());
+    if (auto checked = checkCoordinates(points_m); !checked) return tl::unexpected(checked.error());
+    if (points_m.size() < kLeastPoints) return TerraceEdges{};
+    std::vector<Vector3d> points = placedHeights(points_m, {}).points_m;
+    if (options.metres_per_unit == 1.0)
+        return findInMetres(std::move(points), lines, options, progress, stop);
+    scale(points, options.metres_per_unit);
+    std::vector<Breakline> scaled_lines = lines;
+    for (Breakline& line : scaled_lines) scale(line.vertices_m, options.metres_per_unit);
+    auto found = findInMetres(std::move(points), scaled_lines, options, progress, stop);
+    if (!found) return found;
+    const double units_per_metre = 1.0 / options.metres_per_unit;
+    found->longest_edge_m *= units_per_metre;
+    for (TerraceEdge& edge : found->edges) {
+        scale(edge.toe_m, units_per_metre);
+        scale(edge.top_m, units_per_metre);
+        edge.length_m *= units_per_metre;
+        edge.step_m *= units_per_metre;
+        edge.location_sigma_m *= units_per_metre;
+    }
+    return found;
+}
+
+std::string_view name(TerraceEdgeUse use) {
+    for (const auto& [known, text] : kTerraceEdgeUses) {
+        if (known == use) return text;
+    }
+    return {};
 }
 
 std::vector<Breakline> softBreaklines(const std::vector<TerraceEdge>& edges) {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
+#include <array>
 #include <stop_token>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "survey/breakline.hpp"
@@ -11,16 +13,18 @@
 
 namespace terrawalk {
 
-/// Lengths are in the unit of the points.
+/// What counts as a riser, in metres whatever the unit of the points.
 struct TerraceEdgeOptions {
     double least_step_m = 0.5;      ///< a riser is at least that high
     double greatest_width_m = 1.5;  ///< in plan, from the toe to the top edge
     double least_slope = 0.5;       ///< of the face, rise over run
     double least_length_m = 6.0;    ///< of an edge; shorter ones are left out
     double greatest_reach_m = 3.0;  ///< of the look to either side: no more than half a tread, or so
+    double metres_per_unit = 1.0;   ///< of points, lines and edges
 };
 
-/// One riser: its toe and its top edge, vertex by vertex opposite each other; uphill is to the left.
+/// One riser, in the unit of the points: its toe and its top edge, vertex by vertex opposite each other;
+/// uphill is to the left.
 struct TerraceEdge {
     std::vector<Eigen::Vector3d> toe_m;
     std::vector<Eigen::Vector3d> top_m;
@@ -31,9 +35,16 @@ struct TerraceEdge {
 
 struct TerraceEdges {
     std::vector<TerraceEdge> edges;  ///< the clearest first
-    double reach_m = 0.0;            ///< across the riser, of the points that each fit looked at
-    double along_m = 0.0;            ///< and along it, either way
+    double longest_edge_m = 0.0;     ///< limit of the points' own triangles, see edge_limit.hpp
 };
+
+/// Whether a surface looks for terrace edges by itself.
+enum class TerraceEdgeUse { Auto, Off };
+inline constexpr std::array<std::pair<TerraceEdgeUse, std::string_view>, 2> kTerraceEdgeUses{{
+    {TerraceEdgeUse::Auto, "auto"},
+    {TerraceEdgeUse::Off, "off"},
+}};
+[[nodiscard]] std::string_view name(TerraceEdgeUse use);
 
 /// Finds the risers of terraces in scattered heights, with noise and unevenly spread.
 ///
@@ -44,11 +55,14 @@ struct TerraceEdges {
 /// the likelihood. The model must beat a quadratic surface by the Bayesian information criterion. From the
 /// clearest places an edge is followed both ways, step by step, while the model holds. Where the place is
 /// unsure the face becomes as much wider as the expected height would be, and a place as unsure as the
-/// points are apart ends the edge. Edges never cross one another and keep to the ground between the points.
+/// points are apart ends the edge. Edges never cross one another or the lines given, and keep to the ground
+/// between the points.
 ///
 /// Any order of the points gives the same edges, with any number of threads. Fewer than 30 points: no edges.
-/// Errors: BadData for coordinates out of range; Usage for options not above zero; Cancelled.
+/// @param lines  known already; finite places in plan
+/// Errors: as DelaunayTin::build(); Usage for options not above zero; Cancelled.
 [[nodiscard]] Result<TerraceEdges> findTerraceEdges(const std::vector<Eigen::Vector3d>& points_m,
+                                                    const std::vector<Breakline>& lines,
                                                     const TerraceEdgeOptions& options, Progress& progress,
                                                     std::stop_token stop);
 

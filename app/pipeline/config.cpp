@@ -452,6 +452,12 @@ std::vector<Parameter> groundParameters() {
     };
 }
 
+std::vector<std::pair<std::string, std::optional<InterpolationMethod>>> methodChoices() {
+    std::vector<std::pair<std::string, std::optional<InterpolationMethod>>> choices{{"auto", std::nullopt}};
+    for (const auto& [method, text] : kInterpolationMethods) choices.emplace_back(text, method);
+    return choices;
+}
+
 std::vector<Parameter> surfaceParameters() {
     return {
         number("surface.thinning_cell_m", 0, 1000,
@@ -462,6 +468,16 @@ std::vector<Parameter> surfaceParameters() {
         number("surface.longest_edge_m", 0, 1e6,
                "triangles with a longer edge are left out; 0: from the points",
                TERRAWALK_FIELD(surface.tin.longest_edge_m)),
+        choice<std::optional<InterpolationMethod>>(
+            "surface.method", methodChoices(),
+            "how heights between points are interpolated; auto: the best by cross-validation",
+            TERRAWALK_FIELD(surface.method)),
+        choice<TerraceEdgeUse>("surface.terrace_edges", named(kTerraceEdgeUses),
+                               "whether risers of half a metre and more are found in the points, for methods "
+                               "linear and clough-tocher to follow",
+                               TERRAWALK_FIELD(surface.terrace_edges)),
+        flag("surface.cross_validate", "compare a method that is named with the plain one",
+             TERRAWALK_FIELD(surface.cross_validate)),
         number("surface.cell_m", 0, 1e5, "cell size of the DEM; 0: from the density of the points",
                TERRAWALK_FIELD(surface.cell_m)),
         number("report.nearest_sample_limit_m", 0.01, 1e4,
@@ -584,7 +600,7 @@ std::vector<Parameter> surfaceParameters() {
 static_assert(sizeof(FusionOptions) == 1216, "add the new option to fusionParameters()");
 static_assert(sizeof(AukfOptions) == 168, "add the new option to aukfParameters()");
 static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
-static_assert(sizeof(SurfaceOptions) == 32, "add the new option to surfaceParameters()");
+static_assert(sizeof(SurfaceOptions) == 48, "add the new option to surfaceParameters()");
 
 const std::vector<Parameter>& parameters() {
     static const std::vector<Parameter> kParameters = [] {

@@ -55,6 +55,9 @@ Points walked(SimulatedTerrain kind, double line_spacing_m, double noise_m, std:
     options.noise_scale = 0.0;
     options.fixed_point_runs = 0;
     options.control_stops = 0;
+    // The same pace on a longer way.
+    options.area_epochs = static_cast<std::size_t>(static_cast<double>(options.area_epochs) *
+                                                   options.line_spacing_m / line_spacing_m);
     options.line_spacing_m = line_spacing_m;
     SilentProgress progress;
     const auto made = simulateSurvey(options, progress, {});
@@ -136,7 +139,7 @@ void measure(SimulatedTerrain kind, const std::string& spread, const Points& poi
              std::uint64_t seed, const Truth& truth) {
     SilentProgress progress;
     const auto start = std::chrono::steady_clock::now();
-    const TerraceEdges found = must(findTerraceEdges(points, {}, progress, {}));
+    const TerraceEdges found = must(findTerraceEdges(points, {}, {}, progress, {}));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const DelaunayTin plain = must(DelaunayTin::build(points, {}, progress, {}));
     const GridGeometry g = must(gridCovering(plain.mesh(), kCell_m));

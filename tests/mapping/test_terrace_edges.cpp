@@ -50,7 +50,7 @@ Points pointsOn(const Ground& ground, double per_m2, double sigma_m, std::uint64
 
 Result<TerraceEdges> find(const Points& points, const TerraceEdgeOptions& options = {}) {
     SilentProgress progress;
-    return findTerraceEdges(points, options, progress, {});
+    return findTerraceEdges(points, {}, options, progress, {});
 }
 
 double lengthOf(const TerraceEdges& found) {
@@ -182,7 +182,7 @@ TEST(TerraceEdges, AreGivenUpWhenAsked) {
     stop.request_stop();
     SilentProgress progress;
     const auto found =
-        findTerraceEdges(pointsOn(terraces(1.0), 1.0, 0.0, 61), {}, progress, stop.get_token());
+        findTerraceEdges(pointsOn(terraces(1.0), 1.0, 0.0, 61), {}, {}, progress, stop.get_token());
     EXPECT_EQ(found.error().kind, ErrorKind::Cancelled);
 }
 

@@ -44,7 +44,7 @@ TEST(Surface, WritesTheDemAndTheReportBesideIt) {
     SurfaceRequest request;
     request.points = folder / "plane.csv";
     request.output = folder / "dem.tif";
-    request.method = InterpolationMethod::NaturalNeighbour;
+    request.model.method = InterpolationMethod::NaturalNeighbour;
     request.extent = {500'005.0, 2'500'005.0, 500'010.5, 2'500'009.0};
     request.resolution = 1.0;
     const auto outcome = surfaceOf(request);
@@ -101,10 +101,10 @@ TEST(Surface, FollowsBreaklinesOfAVectorFile) {
     EXPECT_NEAR(outcome->greatest_height, 18.0, 0.06);
     request.crs = "EPSG:32650";
     EXPECT_THAT(surfaceOf(request).error().text(), HasSubstr("the breaklines are in"));
-    request.method = InterpolationMethod::Kriging;
+    request.model.method = InterpolationMethod::Kriging;
     EXPECT_EQ(surfaceOf(request).error().kind, ErrorKind::Usage);
     request.breaklines = request.points;
-    request.method.reset();
+    request.model.method.reset();
     EXPECT_THAT(surfaceOf(request).error().text(), HasSubstr("no line"));
 }
 
@@ -136,7 +136,7 @@ TEST(Surface, NeverReplacesWhatItReads) {
     request.points = folder / "plane_uncertainty.tif.csv";
     request.breaklines = folder / "lines.json";
     request.output = folder / "lines.tif";
-    request.method = InterpolationMethod::Linear;
+    request.model.method = InterpolationMethod::Linear;
     const auto outcome = surfaceOf(request);
     ASSERT_FALSE(outcome);
     EXPECT_EQ(outcome.error().kind, ErrorKind::Usage);
@@ -152,15 +152,15 @@ TEST(Surface, SaysWhenAnOlderUncertaintyLiesBesideIt) {
     request.points = folder / "plane.csv";
     request.output = folder / "dem.tif";
     request.resolution = 2.0;
-    request.cross_validate = false;
-    request.method = InterpolationMethod::Linear;
+    request.model.cross_validate = false;
+    request.model.method = InterpolationMethod::Linear;
     const auto alone = surfaceOf(request);
     ASSERT_TRUE(alone);
     EXPECT_THAT(alone->notes, Not(Contains(HasSubstr("dem_uncertainty.tif"))));
-    request.method = InterpolationMethod::Kriging;
+    request.model.method = InterpolationMethod::Kriging;
     ASSERT_TRUE(surfaceOf(request));
     ASSERT_TRUE(std::filesystem::exists(folder / "dem_uncertainty.tif"));
-    request.method = InterpolationMethod::Linear;
+    request.model.method = InterpolationMethod::Linear;
     const auto again = surfaceOf(request);
     ASSERT_TRUE(again);
     EXPECT_THAT(again->notes, Contains(HasSubstr("dem_uncertainty.tif")));
@@ -178,8 +178,8 @@ TEST(Volume, BetweenAPlaneAndADemOfSurface) {
     SurfaceRequest surface;
     surface.points = folder / "plane.csv";
     surface.output = folder / "dem.tif";
-    surface.method = InterpolationMethod::Linear;
-    surface.cross_validate = false;
+    surface.model.method = InterpolationMethod::Linear;
+    surface.model.cross_validate = false;
     surface.extent = {500'005.0, 2'500'010.0, 500'025.0, 2'500'020.0};
     surface.resolution = 1.0;
     ASSERT_TRUE(surfaceOf(surface));
