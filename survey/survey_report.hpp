@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "survey/ground_point.hpp"
 #include "survey/relief_image.hpp"
 #include "survey/survey.hpp"
 #include "survey/trajectory.hpp"
@@ -113,6 +114,9 @@ struct CountedReason {
     std::string reason;
     std::size_t count = 0;
 };
+
+/// How many points each reason left out, in the order of GroundPointState; none that left out nothing. Pure.
+[[nodiscard]] std::vector<CountedReason> leftOutByReason(const std::vector<GroundPoint>& points);
 
 struct RunReport {
     std::string id;

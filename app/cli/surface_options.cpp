@@ -31,6 +31,24 @@ void addSurfaceOptions(CLI::App& command, SurfaceRequest& r) {
             "How heights are interpolated; auto takes the best by cross-validation: " + list)
         ->check(CLI::IsMember(names))
         ->option_text("NAME [auto]");
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--clean",
+            [&r](const std::vector<std::string>& filters) {
+                for (const std::string& filter : filters) {
+                    if (filter == "statistical") r.cleaning.statistical.use = true;
+                    if (filter == "radius") r.cleaning.radius.use = true;
+                    if (filter == "above-ground") r.cleaning.above_ground.use = true;
+                }
+            },
+            "Points to leave out: statistical (far from their neighbours), radius (isolated), above-ground "
+            "(on plants and other narrow things); several with commas [none]")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"statistical", "radius", "above-ground"}))
+        ->type_name("FILTER,...");
+    command.add_option(
+        "--thin", r.thinning_cell_m,
+        "Side of a cell, m, in which the point of median height stands for all [0, all points]");
     command.add_option("--resolution", r.resolution,
                        "Side of a cell, in the points' unit [from their spacing]");
     command

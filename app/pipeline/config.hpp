@@ -11,6 +11,7 @@
 #include "mapping/delaunay_tin.hpp"
 #include "mapping/ground_points.hpp"
 #include "mapping/height_interpolator.hpp"
+#include "mapping/point_cleaning.hpp"
 #include "mapping/terrace_edges.hpp"
 #include "survey/result.hpp"
 #include "survey/survey_report.hpp"
@@ -21,6 +22,7 @@ namespace terrawalk {
 struct SurfaceOptions {
     double thinning_cell_m = 0.5;  ///< one point stands for each cell of this size; 0: all points
     bool fixed_point_runs = true;  ///< ground points of fixed-point runs count as well
+    PointCleaningOptions cleaning;
     TinOptions tin;
     std::optional<InterpolationMethod> method =
         InterpolationMethod::Linear;  ///< nothing: by cross-validation

@@ -112,14 +112,11 @@ RunReport reportRun(const Run& run, const FusedRun& fused, const std::vector<Gro
         report.notes.insert(report.notes.end(), notes.begin(), notes.end());
     }
     report.track_enu_m = drawnTrack(fused.trajectory);
-    std::array<std::size_t, kGroundPointStateCount> counts{};
-    for (const GroundPoint& point : points) ++counts[static_cast<std::size_t>(point.state)];
-    report.ground_points_used = counts[static_cast<std::size_t>(GroundPointState::Used)];
-    for (std::size_t state = 1; state < kGroundPointStateCount; ++state) {
-        if (counts[state] == 0) continue;
-        report.ground_points_rejected.push_back(
-            {std::string(name(static_cast<GroundPointState>(state))), counts[state]});
-    }
+    report.ground_points_used =
+        static_cast<std::size_t>(std::count_if(points.begin(), points.end(), [](const GroundPoint& point) {
+            return point.state == GroundPointState::Used;
+        }));
+    report.ground_points_rejected = leftOutByReason(points);
     return report;
 }
 
@@ -224,7 +221,7 @@ struct Surface {
     std::vector<GroundPoint> ground_points;  ///< all of them
     std::size_t carrying_points = 0;
     SurfaceModel model;
-    std::optional<CrossValidation> validation;
+    MethodChoice choice;
 };
 
 SurfaceModelOptions modelOptions(const PipelineConfig& config) {
@@ -239,13 +236,14 @@ Result<Surface> makeSurface(const Survey& survey, const std::vector<GroundPoint>
                             const SurfaceOptions& options, const SurfaceModelOptions& model,
                             const MapProjection& projection, Progress& progress,
                             const std::stop_token& stop) {
-    std::vector<GroundPoint> chosen = surfacePoints(survey, ground_points, options);
-    if (stop.stop_requested()) return cancelled();
-    auto points = usedInMap(chosen, projection);
+    PartialProgress cleaning(progress, 0.0, 0.2);
+    auto chosen = surfacePoints(survey, ground_points, options, cleaning, stop);
+    if (!chosen) return tl::unexpected(chosen.error());
+    auto points = usedInMap(*chosen, projection);
     if (!points) return tl::unexpected(blaming(survey, points.error()));
-    if (points->size() < 3) return tl::unexpected(noGroundPoints(survey, chosen));
+    if (points->size() < 3) return tl::unexpected(noGroundPoints(survey, *chosen));
     const SurfaceInput input{std::move(*points), {}, survey.breaklines};
-    PartialProgress triangulating(progress, 0.0, 0.4), judging(progress, 0.4, 0.9),
+    PartialProgress triangulating(progress, 0.2, 0.4), judging(progress, 0.4, 0.9),
         fitting(progress, 0.9, 1.0);
     auto ground = triangulateGround(input, model, triangulating, stop);
     if (!ground) return tl::unexpected(blaming(survey, ground.error()));
@@ -253,8 +251,7 @@ Result<Surface> makeSurface(const Survey& survey, const std::vector<GroundPoint>
     if (!choice) return tl::unexpected(blaming(survey, choice.error()));
     auto fitted = SurfaceModel::fit(input, std::move(*ground), choice->method, model, fitting, stop);
     if (!fitted) return tl::unexpected(blaming(survey, fitted.error()));
-    return Surface{std::move(chosen), input.points_m.size(), std::move(*fitted),
-                   std::move(choice->validation)};
+    return Surface{std::move(*chosen), input.points_m.size(), std::move(*fitted), std::move(*choice)};
 }
 
 /// Height of the surface at a mark, taken back from the map's height datum to the mark's.
@@ -284,10 +281,11 @@ SurfaceReport reportSurface(const Surface& surface, const PipelineConfig& config
     report.method = inWords(surface.model);
     report.method_requested = config.surface.method ? std::string(name(*config.surface.method)) : "auto";
     report.method_used = name(surface.model.method());
-    report.comparison = comparisonOf(surface.validation);
+    report.comparison = comparisonOf(surface.choice.validation);
     report.breaklines = breaklines;
     report.terrace_edges = summaryOf(ground.terrace_edges);
     report.notes = ground.notes;
+    if (!surface.choice.note.empty()) report.notes.push_back(surface.choice.note);
     report.points = surface.carrying_points;
     report.triangles = ground.mesh.triangles.size();
     report.longest_edge_m = ground.longest_edge_m;

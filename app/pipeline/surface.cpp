@@ -15,6 +15,8 @@
 #include "io/read_points.hpp"
 #include "io/write_products.hpp"
 #include "mapping/gridding.hpp"
+#include "mapping/point_cleaning.hpp"
+#include "mapping/thinning.hpp"
 
 namespace terrawalk {
 namespace {
@@ -50,6 +52,9 @@ Result<void> checkRequest(const SurfaceRequest& request) {
         }
     }
     if (auto fits = checkMethod(request.model, !request.breaklines.empty()); !fits) return fits;
+    if (!(request.thinning_cell_m >= 0.0) || !std::isfinite(request.thinning_cell_m)) {
+        return usageError("the cells to thin by may not be below zero");
+    }
     if (!(request.resolution >= 0.0) || !std::isfinite(request.resolution)) {
         return usageError("the resolution may not be below zero");
     }
@@ -98,6 +103,29 @@ Result<std::vector<Breakline>> breaklinesOf(const SurfaceRequest& request, const
         return tl::unexpected(same.error());
     }
     return std::move(file->lines);
+}
+
+/// Cleans and thins. What it takes are ground points in metres.
+Result<void> cleanInput(const SurfaceRequest& request, double metres_per_unit, SurfaceInput& input,
+                        SurfaceOutcome& report, Progress& progress, const std::stop_token& stop) {
+    if (!request.cleaning.any() && request.thinning_cell_m == 0.0) return {};
+    std::vector<GroundPoint> points(input.points_m.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        points[i].epoch = static_cast<std::uint32_t>(i);
+        points[i].enu_m = metres_per_unit * input.points_m[i];
+    }
+    auto cleaned = cleanGroundPoints(std::move(points), request.cleaning, progress, stop);
+    if (!cleaned) return tl::unexpected(cleaned.error());
+    points = thinGroundPoints(std::move(*cleaned), request.thinning_cell_m);
+    report.points_left_out = leftOutByReason(points);
+    SurfaceInput kept{{}, {}, std::move(input.breaklines)};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (points[i].state != GroundPointState::Used) continue;
+        kept.points_m.push_back(input.points_m[i]);
+        if (!input.sigmas_m.empty()) kept.sigmas_m.push_back(input.sigmas_m[i]);
+    }
+    input = std::move(kept);
+    return {};
 }
 
 Result<GridGeometry> geometryOf(const SurfaceRequest& request, const GroundTriangles& ground) {
@@ -166,6 +194,12 @@ Result<void> writeFiles(const InterpolatedGrid& grid, const std::vector<TerraceE
     }
     report.files.push_back(reportFile(request));
     return writeTextFile(toJson(report), report.files.back());
+}
+
+nlohmann::ordered_json reasonsJson(const std::vector<CountedReason>& reasons) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const CountedReason& r : reasons) list.push_back({{"reason", r.reason}, {"count", r.count}});
+    return list;
 }
 
 nlohmann::ordered_json validationJson(const CrossValidation& validation) {
@@ -244,7 +278,11 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
         input.breaklines = std::move(*lines);
         report.breaklines_used = input.breaklines.size();
     }
-    PartialProgress triangulating(progress, 0.2, 0.35);
+    PartialProgress cleaning(progress, 0.2, 0.25);
+    if (auto done = cleanInput(request, model.metres_per_unit, input, report, cleaning, stop); !done) {
+        return tl::unexpected(done.error());
+    }
+    PartialProgress triangulating(progress, 0.25, 0.35);
     auto ground = triangulateGround(input, model, triangulating, stop);
     if (!ground) return tl::unexpected(ground.error());
     report.longest_edge = ground->longest_edge_m;
@@ -273,6 +311,7 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
     if (!choice) return tl::unexpected(choice.error());
     report.method = choice->method;
     report.validation = std::move(choice->validation);
+    if (!choice->note.empty()) report.notes.push_back(choice->note);
     if (report.validation && ground->constrained) {
         report.notes.emplace_back("the cross-validation is of the points without the breaklines");
     }
@@ -299,6 +338,9 @@ std::string toText(const SurfaceOutcome& report) {
         name(report.method), report.request.model.method ? "" : ", the best by cross-validation",
         report.geometry.columns, report.geometry.rows, report.geometry.cell_m, unit, report.cells_with_height,
         report.least_height, report.greatest_height, unit);
+    for (const CountedReason& reason : report.points_left_out) {
+        text += fmt::format("Left out    {} points: {}\n", reason.count, reason.reason);
+    }
     if (report.terrace_edges.count > 0) {
         text += fmt::format("Edges       {} terrace edges, {:.0f} {} long in all, median step {:.2f} {}\n",
                             report.terrace_edges.count, report.terrace_edges.length_m, unit,
@@ -321,6 +363,7 @@ std::string toJson(const SurfaceOutcome& report) {
         {"points_sha256", report.points_sha256},
         {"points_in_file", report.points_in_file},
         {"points_used", report.points_used},
+        {"points_left_out", reasonsJson(report.points_left_out)},
         {"breaklines", report.breaklines_used},
         {"terrace_edges",
          {{"requested", name(report.request.model.terrace_edges)},

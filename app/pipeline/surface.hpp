@@ -10,6 +10,7 @@
 #include "app/pipeline/surface_model.hpp"
 #include "io/coordinate_system.hpp"
 #include "mapping/cross_validation.hpp"
+#include "mapping/point_cleaning.hpp"
 #include "survey/elevation_grid.hpp"
 #include "survey/progress.hpp"
 #include "survey/result.hpp"
@@ -20,6 +21,8 @@ namespace terrawalk {
 struct SurfaceRequest {
     std::filesystem::path points;
     std::filesystem::path output;                 ///< GeoTIFF
+    PointCleaningOptions cleaning;                ///< in metres, whatever the points are in
+    double thinning_cell_m = 0.0;                 ///< the same; one point stands for each cell; 0: all points
     SurfaceModelOptions model;                    ///< its unit is that of the points
     double resolution = 0.0;                      ///< 0: from the point spacing
     std::optional<std::array<double, 4>> extent;  ///< xmin, ymin, xmax, ymax; nothing: all points
@@ -35,6 +38,7 @@ struct SurfaceOutcome {
     CoordinateSystem crs;
     std::size_t points_in_file = 0;
     std::size_t points_used = 0;
+    std::vector<CountedReason> points_left_out;  ///< by cleaning and thinning
     std::size_t breaklines_used = 0;
     TerraceEdgeSummary terrace_edges;
     InterpolationMethod method = InterpolationMethod::Linear;

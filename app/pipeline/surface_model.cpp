@@ -110,7 +110,7 @@ Result<GroundTriangles> triangulateGround(const SurfaceInput& input, const Surfa
 Result<MethodChoice> chooseMethod(const SurfaceInput& input, const GroundTriangles& ground,
                                   const SurfaceModelOptions& options, Progress& progress,
                                   std::stop_token stop) {
-    MethodChoice choice{options.method.value_or(InterpolationMethod::Linear), std::nullopt};
+    MethodChoice choice{options.method.value_or(InterpolationMethod::Linear), std::nullopt, {}};
     if (options.method && !options.cross_validate) return choice;
     CrossValidationOptions judged;
     judged.seed = options.seed;
@@ -123,6 +123,10 @@ Result<MethodChoice> chooseMethod(const SurfaceInput& input, const GroundTriangl
     }
     auto validation =
         crossValidate(input.points_m, input.sigmas_m, options.interpolation, judged, progress, stop);
+    if (!validation && options.method && validation.error().kind == ErrorKind::BadData) {
+        choice.note = "no cross-validation: " + validation.error().message;
+        return choice;
+    }
     if (!validation) return tl::unexpected(validation.error());
     if (!options.method) choice.method = validation->ranking.front();
     choice.validation = std::move(*validation);

@@ -165,6 +165,42 @@ TEST(TerraceEdges, AreAtLeastAsHighAsAskedFor) {
     EXPECT_GT(lengthOf(*find(points, lower)), 0.5 * 5.0 * kSide_m);
 }
 
+TEST(TerraceEdges, AreTheSameInFeet) {
+    constexpr double kFoot_m = 0.3048;
+    Points points = pointsOn(terraces(0.8), 1.0, 0.05, 45);
+    const auto metres = find(points);
+    for (Eigen::Vector3d& point : points) point /= kFoot_m;
+    TerraceEdgeOptions options;
+    options.metres_per_unit = kFoot_m;
+    const auto feet = find(points, options);
+    ASSERT_TRUE(metres && feet);
+    ASSERT_FALSE(metres->edges.empty());
+    // Rounding may end an edge a step earlier or later, no more.
+    EXPECT_NEAR(lengthOf(*feet) * kFoot_m, lengthOf(*metres), 0.02 * lengthOf(*metres));
+    EXPECT_NEAR(feet->longest_edge_m * kFoot_m, metres->longest_edge_m, 1e-6);
+    EXPECT_NEAR(feet->edges.front().step_m * kFoot_m, metres->edges.front().step_m, 0.01);
+}
+
+TEST(TerraceEdges, DoNotCrossLinesThatAreThere) {
+    const Points points = pointsOn(terraces(1.0), 1.0, 0.03, 46);
+    // Straight across all risers, and a ring about the middle.
+    const double unknown = std::nan("");
+    const std::vector<Breakline> lines{
+        {{{11.0, 0.5, unknown}, {13.0, 29.5, unknown}}, BreaklineKind::Hard, "path"},
+        {{{18.0, 8.0, unknown}, {26.0, 8.0, unknown}, {22.0, 22.0, unknown}}, BreaklineKind::Hole, "pond"}};
+    SilentProgress progress;
+    const auto found = findTerraceEdges(points, lines, {}, progress, {});
+    ASSERT_TRUE(found);
+    EXPECT_GT(lengthOf(*found), 60.0);
+    std::vector<Breakline> all = softBreaklines(found->edges);
+    all.insert(all.end(), lines.begin(), lines.end());
+    const auto tin = buildConstrainedTin(points, all, {found->longest_edge_m}, progress, {});
+    EXPECT_TRUE(tin) << tin.error().message;
+    all = softBreaklines(find(points)->edges);
+    all.insert(all.end(), lines.begin(), lines.end());
+    EXPECT_FALSE(buildConstrainedTin(points, all, {}, progress, {})) << "they would cross";
+}
+
 TEST(TerraceEdges, NeedPoints) {
     EXPECT_TRUE(find({})->edges.empty());
     Points points = pointsOn(terraces(1.0), 0.03, 0.0, 51);
