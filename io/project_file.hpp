@@ -25,6 +25,8 @@ struct ProjectFile {
     Survey survey;        ///< without marks and logs
     std::string control;  ///< relative to the project's folder, as written; empty when there is none
     std::size_t control_line = 0;
+    std::string breaklines;  ///< the same for breaklines
+    std::size_t breaklines_line = 0;
     std::vector<RunSource> sources;  ///< of survey.runs, in the same order
 };
 

@@ -12,6 +12,7 @@
 
 #include "io/json_node.hpp"
 #include "io/project_file.hpp"
+#include "io/read_breaklines.hpp"
 #include "io/read_survey.hpp"
 #include "io/survey_format.hpp"
 #include "io/text_input.hpp"
@@ -240,6 +241,21 @@ Result<void> readMarks(ProjectFile& project) {
     return {};
 }
 
+Result<void> readProjectBreaklines(ProjectFile& project, const std::stop_token& stop) {
+    if (project.breaklines.empty()) return {};
+    Survey& survey = project.survey;
+    const auto file =
+        pathInFolder(survey.project_file, project.breaklines, "breaklines", project.breaklines_line);
+    if (!file) return tl::unexpected(file.error());
+    SilentProgress silent;
+    auto lines = readBreaklines(*file, silent, stop);
+    if (!lines) return tl::unexpected(lines.error());
+    survey.breakline_file = *file;
+    survey.breaklines = std::move(lines->lines);
+    survey.breakline_crs = std::move(lines->crs);
+    return {};
+}
+
 Result<void> checkMarksExist(const ProjectFile& project) {
     const Survey& survey = project.survey;
     std::set<std::string_view> known{kZeroMark};
@@ -380,6 +396,8 @@ Result<ProjectFile> parseProjectFile(std::string_view text, const fs::path& file
     survey.vertical_datum = object.optionalText("vertical_datum").value_or(survey.vertical_datum);
     project.control = object.optionalText("control").value_or("");
     project.control_line = object.lineOf("control");
+    project.breaklines = object.optionalText("breaklines").value_or("");
+    project.breaklines_line = object.lineOf("breaklines");
     if (const JsonNode* const runs = object.member("runs", JsonNode::Type::Array)) {
         if (runs->elements.empty()) object.fail("runs", "is empty", "name at least one run with its log");
         for (std::size_t i = 0; i < runs->elements.size(); ++i) {
@@ -400,6 +418,7 @@ Result<Survey> readSurvey(const fs::path& project_file, Progress& progress, std:
     auto project = parseProjectFile(*text, project_file);
     if (!project) return tl::unexpected(project.error());
     if (auto read = readMarks(*project); !read) return tl::unexpected(read.error());
+    if (auto read = readProjectBreaklines(*project, stop); !read) return tl::unexpected(read.error());
     if (auto found = checkMarksExist(*project); !found) return tl::unexpected(found.error());
     if (auto read = readLogs(*project, progress, stop); !read) return tl::unexpected(read.error());
     if (auto inside = checkStopsLieInLogs(*project); !inside) return tl::unexpected(inside.error());

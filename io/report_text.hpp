@@ -32,7 +32,10 @@ namespace terrawalk {
 ///                         used_by_estimator}]                vectors are [e, n, u]
 ///     missing_residuals   [{stage, quantity, mark, role, run}]
 ///     marks               [{name, role, enu_m, sigma_h_m, sigma_v_m}]
-///     surface             {method, points, triangles, longest_edge_m, area_m2, cell_m, columns, rows,
+///     surface             {method, method_requested, method_used, cross_validation: null or {seed, ranking,
+///                         scores: [{method, hold_out, points_compared, rmse_m, mean_absolute_m, error95_m}]},
+///                         breaklines, terrace_edges: {count, length_m, median_step_m,
+///                         median_location_sigma_m}, notes, points, triangles, longest_edge_m, area_m2, cell_m, columns, rows,
 ///                         cells_with_height, lowest_m, highest_m, crs, vertical_datum}
 ///     runs                [{id, kind, rows_read, epochs, repeated_lines, late_lines, cut_off_line (or null),
 ///                         duration_s, distance_m, fixes: [{reason, count}], sensors: [{sensor, offered,

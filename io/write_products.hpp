@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "survey/breakline.hpp"
 #include "survey/elevation_grid.hpp"
 #include "survey/ground_point.hpp"
 #include "survey/result.hpp"
@@ -32,6 +33,13 @@ struct DemDescription {
 /// height or with one that the file cannot hold, and for a CRS that GDAL does not know; System; Cancelled.
 [[nodiscard]] Result<void> writeDem(const ElevationGrid& grid, const DemDescription& description,
                                     const std::filesystem::path& file, std::stop_token stop = {});
+
+/// Writes a GeoPackage with one layer of lines with heights; fields "name" and "kind", as readBreaklines()
+/// takes them. The same lines give the same bytes. The file is read again before it takes its place. Errors:
+/// System; Cancelled.
+[[nodiscard]] Result<void> writeBreaklines(const std::vector<Breakline>& lines, const std::string& layer_name,
+                                           const std::string& crs_wkt2, const std::filesystem::path& file,
+                                           std::stop_token stop = {});
 
 /// Binary little-endian PLY, float offsets from the origin that its comment states (integer metres). A float
 /// steps by at most 0.5 mm within 8 km of the origin. Errors: BadData for a mesh without triangles; System.

@@ -398,10 +398,46 @@ std::string adjustmentSection(const std::optional<AdjustmentSummary>& adjustment
            "<div class=\"scroll\"><table>\n" + noise + "</table></div>\n";
 }
 
+std::string edgesInWords(const TerraceEdgeSummary& e) {
+    if (e.count == 0) return "none";
+    return fmt::format("{}, {} m in all, median step {} m, place known to {} m (1 sigma)",
+                       groupedDigits(e.count), fixedDecimals(e.length_m, 0),
+                       fixedDecimals(e.median_step_m, 2), fixedDecimals(e.median_location_sigma_m, 2));
+}
+
+std::string comparisonTable(const InterpolationComparison& comparison) {
+    std::vector<Heading> headings{{"Method"}};
+    for (const std::string& hold_out : comparison.hold_outs) {
+        for (const char* const measure : {"RMSE", "MAE", "95 %"}) {
+            headings.push_back({fmt::format("{}, {} (m)", hold_out, measure), true});
+        }
+    }
+    std::string rows;
+    for (const std::string& method : comparison.ranking) {
+        std::string cells = rowHead(method);
+        for (const InterpolationScore& score : comparison.scores) {
+            if (score.method != method) continue;
+            for (const double value_m : {score.rmse_m, score.mean_absolute_m, score.error95_m}) {
+                cells += metresCell(value_m);
+            }
+        }
+        rows += row(cells);
+    }
+    return note(
+               fmt::format("Ways of interpolating, the best first, by how well points that were left out are "
+                           "foretold from the others (seed {}). Breaklines and edges take no part.",
+                           comparison.seed)) +
+           table(headings, tableBody(rows));
+}
+
 std::string surfaceSection(const SurveyReport& report) {
     const SurfaceReport& s = report.surface;
     std::string rows;
     rows += pairRow("Method", s.method);
+    rows += pairRow("Method asked for, and used", fmt::format("{}, {}", s.method_requested, s.method_used));
+    if (s.breaklines > 0) rows += pairRow("Breaklines", groupedDigits(s.breaklines));
+    rows += pairRow("Terrace edges found", edgesInWords(s.terrace_edges));
+    for (const std::string& text : s.notes) rows += pairRow("Note", text);
     rows += pairRow("Ground points", groupedDigits(s.points));
     rows += pairRow("Triangles", fmt::format("{}, no edge longer than {} m in plan",
                                              groupedDigits(s.triangles), fixedDecimals(s.longest_edge_m, 2)));
@@ -419,7 +455,8 @@ std::string surfaceSection(const SurveyReport& report) {
     rows += pairRow("Heights", fmt::format("{} m to {} m", metres3(s.lowest_m), metres3(s.highest_m)));
     rows += pairRow("Map frame", s.crs);
     rows += pairRow("Heights refer to", s.vertical_datum);
-    return "<div class=\"scroll\"><table>\n" + tableBody(rows) + "</table></div>\n";
+    return "<div class=\"scroll\"><table>\n" + tableBody(rows) + "</table></div>\n" +
+           (s.comparison ? comparisonTable(*s.comparison) : "");
 }
 
 // ---------------------------------------------------------------------------------------------- runs

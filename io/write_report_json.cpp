@@ -98,8 +98,35 @@ Json markJson(const ControlMark& mark) {
             {"sigma_v_m", jsonNumber(mark.sigma_v_m)}};
 }
 
+Json comparisonJson(const std::optional<InterpolationComparison>& comparison) {
+    if (!comparison) return nullptr;
+    return {{"seed", comparison->seed},
+            {"ranking", comparison->ranking},
+            {"scores", listOf(comparison->scores, [](const InterpolationScore& s) {
+                 return Json{{"method", s.method},
+                             {"hold_out", s.hold_out},
+                             {"points_compared", s.compared},
+                             {"rmse_m", jsonNumber(s.rmse_m)},
+                             {"mean_absolute_m", jsonNumber(s.mean_absolute_m)},
+                             {"error95_m", jsonNumber(s.error95_m)}};
+             })}};
+}
+
+Json edgesJson(const TerraceEdgeSummary& e) {
+    return {{"count", e.count},
+            {"length_m", jsonNumber(e.length_m)},
+            {"median_step_m", jsonNumber(e.median_step_m)},
+            {"median_location_sigma_m", jsonNumber(e.median_location_sigma_m)}};
+}
+
 Json surfaceJson(const SurfaceReport& s) {
     return {{"method", s.method},
+            {"method_requested", s.method_requested},
+            {"method_used", s.method_used},
+            {"cross_validation", comparisonJson(s.comparison)},
+            {"breaklines", s.breaklines},
+            {"terrace_edges", edgesJson(s.terrace_edges)},
+            {"notes", s.notes},
             {"points", s.points},
             {"triangles", s.triangles},
             {"longest_edge_m", jsonNumber(s.longest_edge_m)},

@@ -11,18 +11,21 @@ namespace terrawalk {
 /// Why a ground point is used or not.
 enum class GroundPointState : std::uint8_t {
     Used,
-    NoRange,         ///< the range finder gave nothing in this epoch
-    RangeTooShort,   ///< below the finder's least range: a hand or a leaf in front of it
-    RangeTooLong,    ///< above the finder's greatest range
-    WeakReturn,      ///< strength below the finder's trusted band
-    Saturated,       ///< strength above the finder's trusted band
-    Tilted,          ///< the array was tilted too far
-    PositionUnsure,  ///< sigma of the position above the limit
-    Spike,           ///< stands off from its neighbours along the track
-    Thinned,         ///< another point stands for this cell
-    RunLeftOut,      ///< its run was not asked for
+    NoRange,             ///< the range finder gave nothing in this epoch
+    RangeTooShort,       ///< below the finder's least range: a hand or a leaf in front of it
+    RangeTooLong,        ///< above the finder's greatest range
+    WeakReturn,          ///< strength below the finder's trusted band
+    Saturated,           ///< strength above the finder's trusted band
+    Tilted,              ///< the array was tilted too far
+    PositionUnsure,      ///< sigma of the position above the limit
+    Spike,               ///< stands off from its neighbours along the track
+    Thinned,             ///< another point stands for this cell
+    RunLeftOut,          ///< its run was not asked for
+    StatisticalOutlier,  ///< farther from its neighbours than others are
+    Isolated,            ///< next to nobody around it
+    AboveGround,         ///< on something narrow that stands on the ground: a plant, a hand
 };
-inline constexpr std::size_t kGroundPointStateCount = 11;
+inline constexpr std::size_t kGroundPointStateCount = 14;
 
 /// Short stable text for files: "used", "no range", ...
 [[nodiscard]] std::string_view name(GroundPointState state);

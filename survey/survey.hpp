@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "survey/array_log.hpp"
+#include "survey/breakline.hpp"
 #include "survey/frames.hpp"
 
 namespace terrawalk {
@@ -59,6 +60,9 @@ struct Survey {
     std::string vertical_datum = "local";
     std::filesystem::path control_file;  ///< empty when the survey has no marks
     std::vector<ControlMark> marks;      ///< without ZERO
+    std::filesystem::path breakline_file;  ///< empty when the survey has none
+    std::vector<Breakline> breaklines;     ///< in the map frame
+    std::string breakline_crs;             ///< of their file, as WKT; empty where it has none
     std::vector<Run> runs;
     std::vector<std::string> notes;  ///< odd but harmless things that the reader met
 

@@ -26,4 +26,16 @@ std::string_view name(Quantity quantity) {
     return "";
 }
 
+std::vector<CountedReason> leftOutByReason(const std::vector<GroundPoint>& points) {
+    std::array<std::size_t, kGroundPointStateCount> counts{};
+    for (const GroundPoint& point : points) ++counts[static_cast<std::size_t>(point.state)];
+    std::vector<CountedReason> reasons;
+    for (std::size_t state = 0; state < kGroundPointStateCount; ++state) {
+        const auto reason = static_cast<GroundPointState>(state);
+        if (reason == GroundPointState::Used || counts[state] == 0) continue;
+        reasons.push_back({std::string(name(reason)), counts[state]});
+    }
+    return reasons;
+}
+
 }  // namespace terrawalk

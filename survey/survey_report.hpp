@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "survey/ground_point.hpp"
 #include "survey/relief_image.hpp"
 #include "survey/survey.hpp"
 #include "survey/trajectory.hpp"
@@ -109,6 +110,9 @@ struct CountedReason {
     std::size_t count = 0;
 };
 
+/// How many points each reason left out, in the order of GroundPointState; none that left out nothing. Pure.
+[[nodiscard]] std::vector<CountedReason> leftOutByReason(const std::vector<GroundPoint>& points);
+
 struct RunReport {
     std::string id;
     RunKind kind = RunKind::Area;
@@ -129,8 +133,39 @@ struct RunReport {
     std::vector<Eigen::Vector3d> track_enu_m;  ///< thinned for drawing
 };
 
+/// Points foretold from the others, by one method in one way of leaving points out.
+struct InterpolationScore {
+    std::string method;    ///< as on the command line, e.g. "natural-neighbour"
+    std::string hold_out;  ///< e.g. "spatial-blocks"
+    std::size_t compared = 0;
+    double rmse_m = 0.0;
+    double mean_absolute_m = 0.0;
+    double error95_m = 0.0;
+};
+/// Ways of interpolating compared on the survey's own points.
+struct InterpolationComparison {
+    std::vector<std::string> ranking;  ///< methods, best first
+    std::vector<std::string> hold_outs;
+    std::vector<InterpolationScore> scores;  ///< in that order of methods, and within it of hold-outs
+    std::uint64_t seed = 0;
+};
+
+/// Terrace edges that were found in the points and that the surface keeps to.
+struct TerraceEdgeSummary {
+    std::size_t count = 0;
+    double length_m = 0.0;
+    double median_step_m = 0.0;            ///< height from toe to top edge
+    double median_location_sigma_m = 0.0;  ///< of the edges' place, across
+};
+
 struct SurfaceReport {
-    std::string method;
+    std::string method;            ///< in words
+    std::string method_requested;  ///< as on the command line, or "auto"
+    std::string method_used;
+    std::optional<InterpolationComparison> comparison;
+    std::size_t breaklines = 0;  ///< that were given
+    TerraceEdgeSummary terrace_edges;
+    std::vector<std::string> notes;
     std::size_t points = 0;
     std::size_t triangles = 0;
     double longest_edge_m = 0.0;

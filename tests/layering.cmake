@@ -9,7 +9,7 @@ set(allowed_app/cli app/cli app/pipeline survey)
 
 # Third-party header prefixes and the only folders that may name them.
 set(third_party
-    "CGAL/=mapping" "gdal=io" "ogr_=io" "cpl_=io" "proj.h=io" "nlohmann/=io|app/pipeline"
+    "CGAL/=mapping" "pcl/=mapping" "gdal=io" "ogr_=io" "cpl_=io" "proj.h=io" "nlohmann/=io|app/pipeline"
     "CLI/=app/cli" "spdlog/=app/pipeline" "openssl/=io" "GeographicLib/=survey" "pagmo/=fusion" "Q=app/gui")
 
 set(breaches 0)

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/choice_option.hpp"
+
 namespace terrawalk {
 
 void addSurfaceOptions(CLI::App& command, SurfaceRequest& r) {
@@ -21,14 +23,32 @@ void addSurfaceOptions(CLI::App& command, SurfaceRequest& r) {
         .add_option_function<std::string>(
             "--method",
             [&r](const std::string& chosen) {
-                r.method.reset();
+                r.model.method.reset();
                 for (const auto& [method, text] : kInterpolationMethods) {
-                    if (text == chosen) r.method = method;
+                    if (text == chosen) r.model.method = method;
                 }
             },
             "How heights are interpolated; auto takes the best by cross-validation: " + list)
         ->check(CLI::IsMember(names))
         ->option_text("NAME [auto]");
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--clean",
+            [&r](const std::vector<std::string>& filters) {
+                for (const std::string& filter : filters) {
+                    if (filter == "statistical") r.cleaning.statistical.use = true;
+                    if (filter == "radius") r.cleaning.radius.use = true;
+                    if (filter == "above-ground") r.cleaning.above_ground.use = true;
+                }
+            },
+            "Points to leave out: statistical (far from their neighbours), radius (isolated), above-ground "
+            "(on plants and other narrow things); several with commas [none]")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"statistical", "radius", "above-ground"}))
+        ->type_name("FILTER,...");
+    command.add_option(
+        "--thin", r.thinning_cell_m,
+        "Side of a cell, m, in which the point of median height stands for all [0, all points]");
     command.add_option("--resolution", r.resolution,
                        "Side of a cell, in the points' unit [from their spacing]");
     command
@@ -46,7 +66,9 @@ void addSurfaceOptions(CLI::App& command, SurfaceRequest& r) {
             "--breaklines", r.breaklines,
             "Lines that linear and clough-tocher follow: a vector file, kind hard, soft, boundary or hole")
         ->type_name("FILE");
-    command.add_option("--longest-edge", r.longest_edge,
+    addChoice(command, "--terrace-edges", r.model.terrace_edges, kTerraceEdgeUses,
+              "Whether risers of half a metre and more are found, for linear and clough-tocher to follow");
+    command.add_option("--longest-edge", r.model.longest_edge_m,
                        "Triangles with a longer edge count as gap and stay empty [from the points]");
     command.add_option("--crs", r.crs, "CRS of the points, e.g. EPSG:2994 [the file's own]");
     command.add_option("--unit", r.unit, "m, ft or us-ft [of the CRS or the file, else m]");
@@ -55,9 +77,9 @@ void addSurfaceOptions(CLI::App& command, SurfaceRequest& r) {
                     "Class of LAS points that count; may be repeated [2, ground]")
         ->allow_extra_args(false);
     command.add_flag_callback(
-        "--no-validation", [&r] { r.cross_validate = false; },
+        "--no-validation", [&r] { r.model.cross_validate = false; },
         "Do not cross-validate a method that was named");
-    command.add_option("--seed", r.seed, "Of the cross-validation")->capture_default_str();
+    command.add_option("--seed", r.model.seed, "Of the cross-validation")->capture_default_str();
 }
 
 void addVolumeOptions(CLI::App& command, VolumeRequest& r) {

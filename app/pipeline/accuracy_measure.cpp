@@ -138,10 +138,10 @@ const GroundPoint& nearestSample(const std::vector<GroundPoint>& samples, const 
 Result<DelaunayTin> surfaceOf(const Survey& survey, const GroundTrack& track, const SurfaceOptions& options,
                               const std::stop_token& stop) {
     std::vector<Eigen::Vector3d> carrying_m;
-    for (const GroundPoint& point : usedPoints(surfacePoints(survey, track.points, options))) {
-        carrying_m.push_back(point.enu_m);
-    }
     SilentProgress silent;
+    auto points = surfacePoints(survey, track.points, options, silent, stop);
+    if (!points) return tl::unexpected(points.error());
+    for (const GroundPoint& point : usedPoints(std::move(*points))) carrying_m.push_back(point.enu_m);
     return DelaunayTin::build(carrying_m, options.tin, silent, stop);
 }
 

@@ -133,10 +133,12 @@ std::vector<SensorConsistency> pooled(const std::vector<FusedRun>& runs) {
 Result<DelaunayTin> surfaceOf(const Survey& survey, const GroundTrack& track, const SurfaceOptions& options,
                               const std::stop_token& stop) {
     std::vector<Eigen::Vector3d> carrying_m;
-    for (const GroundPoint& point : surfacePoints(survey, track.points, options)) {
+    SilentProgress silent;
+    const auto points = surfacePoints(survey, track.points, options, silent, stop);
+    if (!points) return tl::unexpected(points.error());
+    for (const GroundPoint& point : *points) {
         if (point.state == GroundPointState::Used) carrying_m.push_back(point.enu_m);
     }
-    SilentProgress silent;
     return DelaunayTin::build(carrying_m, options.tin, silent, stop);
 }
 

@@ -452,6 +452,49 @@ std::vector<Parameter> groundParameters() {
     };
 }
 
+std::vector<std::pair<std::string, std::optional<InterpolationMethod>>> methodChoices() {
+    std::vector<std::pair<std::string, std::optional<InterpolationMethod>>> choices{{"auto", std::nullopt}};
+    for (const auto& [method, text] : kInterpolationMethods) choices.emplace_back(text, method);
+    return choices;
+}
+
+std::vector<Parameter> cleaningParameters() {
+    return {
+        flag("surface.clean.statistical.use",
+             "leave out points farther from their neighbours than others are",
+             TERRAWALK_FIELD(surface.cleaning.statistical.use)),
+        integer<int>("surface.clean.statistical.neighbours", 1, 1000, "that the distance is taken to",
+                     TERRAWALK_FIELD(surface.cleaning.statistical.neighbours)),
+        number("surface.clean.statistical.sigmas", 0, 1000, "above the mean distance that leave a point out",
+               TERRAWALK_FIELD(surface.cleaning.statistical.sigmas)),
+        flag("surface.clean.radius.use", "leave out points with next to nobody around them",
+             TERRAWALK_FIELD(surface.cleaning.radius.use)),
+        number("surface.clean.radius.radius_m", 0.001, 1e4, "in which neighbours are counted, in space",
+               TERRAWALK_FIELD(surface.cleaning.radius.radius_m)),
+        integer<int>("surface.clean.radius.least_neighbours", 1, 1000, "that keep a point",
+                     TERRAWALK_FIELD(surface.cleaning.radius.least_neighbours)),
+        flag("surface.clean.above_ground.use",
+             "leave out what stands on the ground and is narrow: plants, a hand before the range finder",
+             TERRAWALK_FIELD(surface.cleaning.above_ground.use)),
+        number("surface.clean.above_ground.cell_m", 0.01, 100, "windows are 3, 5, 9, ... of these wide",
+               TERRAWALK_FIELD(surface.cleaning.above_ground.cell_m)),
+        number("surface.clean.above_ground.greatest_window_m", 0.1, 1000, "what is wider is ground",
+               TERRAWALK_FIELD(surface.cleaning.above_ground.greatest_window_m)),
+        number("surface.clean.above_ground.slope", 0, 10, "of the ground",
+               TERRAWALK_FIELD(surface.cleaning.above_ground.slope)),
+        number("surface.clean.above_ground.least_height_m", 0.01, 100, "of what is left out",
+               TERRAWALK_FIELD(surface.cleaning.above_ground.least_height_m)),
+        number("surface.clean.above_ground.greatest_height_m", 0.01, 1000,
+               "whatever stands higher is left out, steep ground or not",
+               TERRAWALK_FIELD(surface.cleaning.above_ground.greatest_height_m)),
+        number("surface.clean.above_ground.link_m", 0.01, 100, "points that near belong to one thing",
+               TERRAWALK_FIELD(surface.cleaning.above_ground.link_m)),
+        number("surface.clean.above_ground.terrace_length_m", 0, 1e4,
+               "what goes on for so long is a terrace and stays; 0: nothing does",
+               TERRAWALK_FIELD(surface.cleaning.above_ground.terrace_length_m)),
+    };
+}
+
 std::vector<Parameter> surfaceParameters() {
     return {
         number("surface.thinning_cell_m", 0, 1000,
@@ -462,6 +505,16 @@ std::vector<Parameter> surfaceParameters() {
         number("surface.longest_edge_m", 0, 1e6,
                "triangles with a longer edge are left out; 0: from the points",
                TERRAWALK_FIELD(surface.tin.longest_edge_m)),
+        choice<std::optional<InterpolationMethod>>(
+            "surface.method", methodChoices(),
+            "how heights between points are interpolated; auto: the best by cross-validation",
+            TERRAWALK_FIELD(surface.method)),
+        choice<TerraceEdgeUse>("surface.terrace_edges", named(kTerraceEdgeUses),
+                               "whether risers of half a metre and more are found in the points, for methods "
+                               "linear and clough-tocher to follow",
+                               TERRAWALK_FIELD(surface.terrace_edges)),
+        flag("surface.cross_validate", "compare a method that is named with the plain one",
+             TERRAWALK_FIELD(surface.cross_validate)),
         number("surface.cell_m", 0, 1e5, "cell size of the DEM; 0: from the density of the points",
                TERRAWALK_FIELD(surface.cell_m)),
         number("report.nearest_sample_limit_m", 0.01, 1e4,
@@ -587,12 +640,14 @@ std::vector<Parameter> surfaceParameters() {
 static_assert(sizeof(FusionOptions) == 1224, "add the new option to fusionParameters()");
 static_assert(sizeof(AukfOptions) == 168, "add the new option to aukfParameters()");
 static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
-static_assert(sizeof(SurfaceOptions) == 32, "add the new option to surfaceParameters()");
+static_assert(sizeof(PointCleaningOptions) == 104, "add the new option to cleaningParameters()");
+static_assert(sizeof(SurfaceOptions) == 152, "add the new option to surfaceParameters()");
 
 const std::vector<Parameter>& parameters() {
     static const std::vector<Parameter> kParameters = [] {
         std::vector<Parameter> all = fusionParameters();
-        for (const auto& part : {aukfParameters(), groundParameters(), surfaceParameters()})
+        for (const auto& part :
+             {aukfParameters(), groundParameters(), cleaningParameters(), surfaceParameters()})
             all.insert(all.end(), part.begin(), part.end());
         return all;
     }();

@@ -10,6 +10,9 @@
 #include "fusion/fusion_options.hpp"
 #include "mapping/delaunay_tin.hpp"
 #include "mapping/ground_points.hpp"
+#include "mapping/height_interpolator.hpp"
+#include "mapping/point_cleaning.hpp"
+#include "mapping/terrace_edges.hpp"
 #include "survey/result.hpp"
 #include "survey/survey_report.hpp"
 
@@ -19,8 +22,13 @@ namespace terrawalk {
 struct SurfaceOptions {
     double thinning_cell_m = 0.5;  ///< one point stands for each cell of this size; 0: all points
     bool fixed_point_runs = true;  ///< ground points of fixed-point runs count as well
+    PointCleaningOptions cleaning;
     TinOptions tin;
-    double cell_m = 0.0;  ///< of the DEM; 0: from the density of the points
+    std::optional<InterpolationMethod> method =
+        InterpolationMethod::Linear;  ///< nothing: by cross-validation
+    TerraceEdgeUse terrace_edges = TerraceEdgeUse::Auto;
+    bool cross_validate = true;  ///< methods are compared even where one is named
+    double cell_m = 0.0;         ///< of the DEM; 0: from the density of the points
 };
 
 struct ReportOptions {

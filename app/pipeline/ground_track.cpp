@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fusion/fuse_survey.hpp"
+#include "mapping/point_cleaning.hpp"
 #include "mapping/thinning.hpp"
 
 namespace terrawalk {
@@ -45,15 +46,18 @@ std::vector<GroundPoint> pointsOfRun(const std::vector<GroundPoint>& points, con
     return {at(track.first_point[run]), at(track.first_point[run + 1])};
 }
 
-std::vector<GroundPoint> surfacePoints(const Survey& survey, std::vector<GroundPoint> points,
-                                       const SurfaceOptions& options) {
+Result<std::vector<GroundPoint>> surfacePoints(const Survey& survey, std::vector<GroundPoint> points,
+                                               const SurfaceOptions& options, Progress& progress,
+                                               std::stop_token stop) {
     if (!options.fixed_point_runs) {
         for (GroundPoint& point : points) {
             const bool left_out = survey.runs[point.run].kind == RunKind::FixedPoint;
             if (left_out && point.state == GroundPointState::Used) point.state = GroundPointState::RunLeftOut;
         }
     }
-    return thinGroundPoints(std::move(points), options.thinning_cell_m);
+    auto cleaned = cleanGroundPoints(std::move(points), options.cleaning, progress, stop);
+    if (!cleaned) return cleaned;
+    return thinGroundPoints(std::move(*cleaned), options.thinning_cell_m);
 }
 
 }  // namespace terrawalk

@@ -38,9 +38,11 @@ struct GroundTrack {
 [[nodiscard]] std::vector<GroundPoint> pointsOfRun(const std::vector<GroundPoint>& points,
                                                    const GroundTrack& track, std::size_t run);
 
-/// The points that shall carry the surface: of the runs that were asked for, one in each cell. Runs are left
-/// out before cells are thinned, so that none of their points stands for a cell. Pure.
-[[nodiscard]] std::vector<GroundPoint> surfacePoints(const Survey& survey, std::vector<GroundPoint> points,
-                                                     const SurfaceOptions& options);
+/// The points that shall carry the surface: of the runs that were asked for, cleaned, one in each cell. What
+/// is left out goes before cells are thinned, so that it stands for no cell. Errors: as cleanGroundPoints().
+[[nodiscard]] Result<std::vector<GroundPoint>> surfacePoints(const Survey& survey,
+                                                             std::vector<GroundPoint> points,
+                                                             const SurfaceOptions& options,
+                                                             Progress& progress, std::stop_token stop);
 
 }  // namespace terrawalk

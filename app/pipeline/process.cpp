@@ -10,7 +10,9 @@
 #include "app/pipeline/ground_track.hpp"
 #include "app/pipeline/inspect.hpp"
 #include "app/pipeline/relief.hpp"
+#include "app/pipeline/surface_model.hpp"
 #include "app/pipeline/version.hpp"
+#include "io/coordinate_system.hpp"
 #include "io/map_projection.hpp"
 #include "mapping/accuracy_statements.hpp"
 #include "mapping/gridding.hpp"
@@ -110,37 +112,11 @@ RunReport reportRun(const Run& run, const FusedRun& fused, const std::vector<Gro
         report.notes.insert(report.notes.end(), notes.begin(), notes.end());
     }
     report.track_enu_m = drawnTrack(fused.trajectory);
-    std::array<std::size_t, kGroundPointStateCount> counts{};
-    for (const GroundPoint& point : points) ++counts[static_cast<std::size_t>(point.state)];
-    report.ground_points_used = counts[static_cast<std::size_t>(GroundPointState::Used)];
-    for (std::size_t state = 1; state < kGroundPointStateCount; ++state) {
-        if (counts[state] == 0) continue;
-        report.ground_points_rejected.push_back(
-            {std::string(name(static_cast<GroundPointState>(state))), counts[state]});
-    }
-    return report;
-}
-
-SurfaceReport reportSurface(const DelaunayTin& tin, const ElevationGrid& dem, const MapProjection& projection,
-                            std::size_t points) {
-    SurfaceReport report;
-    report.method = "Delaunay triangulation, linear interpolation at cell centres";
-    report.points = points;
-    report.triangles = tin.mesh().triangles.size();
-    report.longest_edge_m = tin.longestEdge_m();
-    report.area_m2 = tin.area_m2();
-    report.cell_m = dem.geometry.cell_m;
-    report.columns = dem.geometry.columns;
-    report.rows = dem.geometry.rows;
-    report.crs = projection.name();
-    report.vertical_datum = projection.heightReference();
-    for (const float height : dem.heights_m) {
-        if (std::isnan(height)) continue;
-        const double h = height;
-        report.lowest_m = report.cells_with_height == 0 ? h : std::min(report.lowest_m, h);
-        report.highest_m = report.cells_with_height == 0 ? h : std::max(report.highest_m, h);
-        ++report.cells_with_height;
-    }
+    report.ground_points_used =
+        static_cast<std::size_t>(std::count_if(points.begin(), points.end(), [](const GroundPoint& point) {
+            return point.state == GroundPointState::Used;
+        }));
+    report.ground_points_rejected = leftOutByReason(points);
     return report;
 }
 
@@ -244,38 +220,106 @@ Error blaming(const Survey& survey, Error error) {
 struct Surface {
     std::vector<GroundPoint> ground_points;  ///< all of them
     std::size_t carrying_points = 0;
-    DelaunayTin tin;
+    SurfaceModel model;
+    MethodChoice choice;
 };
 
+SurfaceModelOptions modelOptions(const PipelineConfig& config) {
+    return {.method = config.surface.method,
+            .cross_validate = config.surface.cross_validate,
+            .terrace_edges = config.surface.terrace_edges,
+            .longest_edge_m = config.surface.tin.longest_edge_m,
+            .seed = config.seed};
+}
+
 Result<Surface> makeSurface(const Survey& survey, const std::vector<GroundPoint>& ground_points,
-                            const SurfaceOptions& options, const MapProjection& projection,
-                            Progress& progress, const std::stop_token& stop) {
-    std::vector<GroundPoint> chosen = surfacePoints(survey, ground_points, options);
-    if (stop.stop_requested()) return cancelled();
-    const auto points = usedInMap(chosen, projection);
+                            const SurfaceOptions& options, const SurfaceModelOptions& model,
+                            const MapProjection& projection, Progress& progress,
+                            const std::stop_token& stop) {
+    PartialProgress cleaning(progress, 0.0, 0.2);
+    auto chosen = surfacePoints(survey, ground_points, options, cleaning, stop);
+    if (!chosen) return tl::unexpected(chosen.error());
+    auto points = usedInMap(*chosen, projection);
     if (!points) return tl::unexpected(blaming(survey, points.error()));
-    if (points->size() < 3) return tl::unexpected(noGroundPoints(survey, chosen));
-    auto tin = DelaunayTin::build(*points, options.tin, progress, stop);
-    if (!tin) return tl::unexpected(blaming(survey, tin.error()));
-    return Surface{std::move(chosen), points->size(), std::move(*tin)};
+    if (points->size() < 3) return tl::unexpected(noGroundPoints(survey, *chosen));
+    const SurfaceInput input{std::move(*points), {}, survey.breaklines};
+    PartialProgress triangulating(progress, 0.2, 0.4), judging(progress, 0.4, 0.9),
+        fitting(progress, 0.9, 1.0);
+    auto ground = triangulateGround(input, model, triangulating, stop);
+    if (!ground) return tl::unexpected(blaming(survey, ground.error()));
+    auto choice = chooseMethod(input, *ground, model, judging, stop);
+    if (!choice) return tl::unexpected(blaming(survey, choice.error()));
+    auto fitted = SurfaceModel::fit(input, std::move(*ground), choice->method, model, fitting, stop);
+    if (!fitted) return tl::unexpected(blaming(survey, fitted.error()));
+    return Surface{std::move(*chosen), input.points_m.size(), std::move(*fitted), std::move(*choice)};
 }
 
 /// Height of the surface at a mark, taken back from the map's height datum to the mark's.
-SurfaceHeightAt heightOf(const DelaunayTin& tin, const MapProjection& projection) {
+SurfaceHeightAt heightOf(const SurfaceModel& surface, const MapProjection& projection) {
     return [&](const ControlMark& mark) -> std::optional<double> {
         const auto at = projection.toMap(mark.enu_m);
         if (!at) return std::nullopt;
-        const auto height_m = tin.heightAt(at->x(), at->y());
+        const auto height_m = surface.heightAt(at->x(), at->y());
         if (!height_m) return std::nullopt;
         return *height_m - at->z() + mark.enu_m.z();
     };
 }
 
+std::string inWords(const SurfaceModel& surface) {
+    const std::string triangles =
+        surface.ground().constrained ? "constrained Delaunay triangulation" : "Delaunay triangulation";
+    if (surface.method() == InterpolationMethod::Linear) {
+        return triangles + ", linear interpolation at cell centres";
+    }
+    return fmt::format("{} at cell centres, within the {}", name(surface.method()), triangles);
+}
+
+SurfaceReport reportSurface(const Surface& surface, const PipelineConfig& config, std::size_t breaklines,
+                            const ElevationGrid& dem, const MapProjection& projection) {
+    const GroundTriangles& ground = surface.model.ground();
+    SurfaceReport report;
+    report.method = inWords(surface.model);
+    report.method_requested = config.surface.method ? std::string(name(*config.surface.method)) : "auto";
+    report.method_used = name(surface.model.method());
+    report.comparison = comparisonOf(surface.choice.validation);
+    report.breaklines = breaklines;
+    report.terrace_edges = summaryOf(ground.terrace_edges);
+    report.notes = ground.notes;
+    if (!surface.choice.note.empty()) report.notes.push_back(surface.choice.note);
+    report.points = surface.carrying_points;
+    report.triangles = ground.mesh.triangles.size();
+    report.longest_edge_m = ground.longest_edge_m;
+    report.area_m2 = ground.area_m2;
+    report.cell_m = dem.geometry.cell_m;
+    report.columns = dem.geometry.columns;
+    report.rows = dem.geometry.rows;
+    report.crs = projection.name();
+    report.vertical_datum = projection.heightReference();
+    for (const float height : dem.heights_m) {
+        if (std::isnan(height)) continue;
+        const double h = height;
+        report.lowest_m = report.cells_with_height == 0 ? h : std::min(report.lowest_m, h);
+        report.highest_m = report.cells_with_height == 0 ? h : std::max(report.highest_m, h);
+        ++report.cells_with_height;
+    }
+    return report;
+}
+
+/// Whether the method can follow the survey's breaklines, and whether they lie in the map's own frame.
+Result<void> checkBreaklines(const Survey& survey, const PipelineConfig& config,
+                             const MapProjection& projection) {
+    if (auto fits = checkMethod(modelOptions(config), !survey.breaklines.empty()); !fits) return fits;
+    if (survey.breakline_crs.empty()) return {};
+    const auto own = describeCrs(projection.wkt2());
+    if (!own) return tl::unexpected(own.error());
+    return checkBreaklineCrs(survey.breakline_crs, own->name, survey.breakline_file);
+}
+
 /// The sensors as they are against the marks, by the same measures as the fused track and its surface, so
 /// that before and after can be compared.
 Result<Comparison> compareBeforeFusion(const Survey& survey, const PipelineConfig& config,
-                                       const MapProjection& projection, Progress& progress,
-                                       const std::stop_token& stop) {
+                                       InterpolationMethod method, const MapProjection& projection,
+                                       Progress& progress, const std::stop_token& stop) {
     FusionOptions as_measured = config.fusion;
     as_measured.method = FusionMethod::Raw;
     const auto track = trackGround(survey, as_measured, config.ground, progress, stop);
@@ -285,10 +329,13 @@ Result<Comparison> compareBeforeFusion(const Survey& survey, const PipelineConfi
     // What the raw track misses says nothing of the product, so it is not told.
     comparison.missing.clear();
     SilentProgress silent;
-    const auto surface = makeSurface(survey, track->points, config.surface, projection, silent, stop);
+    SurfaceModelOptions model = modelOptions(config);
+    model.method = method;
+    model.cross_validate = false;
+    const auto surface = makeSurface(survey, track->points, config.surface, model, projection, silent, stop);
     if (surface) {
         comparison.add(
-            {surfaceResiduals(survey.marks, heightOf(surface->tin, projection), Stage::BeforeFusion, {})
+            {surfaceResiduals(survey.marks, heightOf(surface->model, projection), Stage::BeforeFusion, {})
                  .residuals,
              {}});
     } else if (surface.error().kind == ErrorKind::BadData) {
@@ -353,40 +400,47 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     const auto projection = MapProjection::create(survey.frame(), survey.crs, survey.vertical_datum);
     if (!projection) return tl::unexpected(blaming(survey, projection.error()));
 
+    if (auto checked = checkBreaklines(survey, config, *projection); !checked) {
+        return tl::unexpected(checked.error());
+    }
     PartialProgress fusing(progress, 0.0, 0.5);
     auto fused = trackGround(survey, config.fusion, config.ground, fusing, stop);
     if (!fused) return tl::unexpected(fused.error());
+
+    PartialProgress modelling(progress, 0.5, 0.7);
+    progress.report(0.5, "making the surface");
+    auto surface = makeSurface(survey, fused->points, config.surface, modelOptions(config), *projection,
+                               modelling, stop);
+    if (!surface) return tl::unexpected(surface.error());
+    const GroundTriangles& ground = surface->model.ground();
 
     const bool is_fused = config.fusion.method != FusionMethod::Raw;
     const bool tied = tiesToMarks(config.fusion.method);
     Result<Comparison> comparison;
     if (is_fused) {
-        PartialProgress following(progress, 0.5, 0.7);
-        comparison = compareBeforeFusion(survey, config, *projection, following, stop);
+        PartialProgress following(progress, 0.7, 0.85);
+        comparison =
+            compareBeforeFusion(survey, config, surface->model.method(), *projection, following, stop);
         if (!comparison) return tl::unexpected(comparison.error());
     }
     compareTrack(survey, *fused, config, is_fused ? Stage::Fused : Stage::BeforeFusion, tied, *comparison);
-
-    PartialProgress triangulating(progress, 0.7, 0.85);
-    progress.report(0.7, "triangulating");
-    auto surface = makeSurface(survey, fused->points, config.surface, *projection, triangulating, stop);
-    if (!surface) return tl::unexpected(surface.error());
-    const DelaunayTin& tin = surface->tin;
-    comparison->add(surfaceResiduals(survey.marks, heightOf(tin, *projection), Stage::Surface,
+    comparison->add(surfaceResiduals(survey.marks, heightOf(surface->model, *projection), Stage::Surface,
                                      tied ? usedMarks(survey, config.fusion) : std::set<std::string>{}));
 
     Products products;
     products.used = config;
-    products.used.surface.tin.longest_edge_m = tin.longestEdge_m();
+    products.used.surface.tin.longest_edge_m = ground.longest_edge_m;
+    products.used.surface.method = surface->model.method();
     if (config.surface.cell_m == 0.0) {
-        products.used.surface.cell_m = suggestCellSize(tin.area_m2(), surface->carrying_points);
+        products.used.surface.cell_m = suggestCellSize(ground.area_m2, surface->carrying_points);
     }
-    const auto geometry = gridCovering(tin.mesh(), products.used.surface.cell_m);
+    const auto geometry = gridCovering(ground.mesh, products.used.surface.cell_m);
     if (!geometry) return tl::unexpected(blaming(survey, geometry.error()));
     PartialProgress gridding(progress, 0.85, 1.0);
-    auto dem = rasterize(tin.mesh(), *geometry, gridding, stop);
+    auto dem = surface->model.grid(*geometry, gridding, stop);
     if (!dem) return tl::unexpected(dem.error());
-    products.dem = std::move(*dem);
+    products.dem = std::move(dem->heights);
+    products.terrace_edges = ground.terrace_edges;
 
     products.ground_points = std::move(surface->ground_points);
     SurveyReport& report = products.report;
@@ -403,7 +457,7 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
         report.runs.push_back(
             reportRun(survey.runs[i], fused->runs[i], pointsOfRun(products.ground_points, *fused, i)));
     }
-    report.surface = reportSurface(tin, products.dem, *projection, surface->carrying_points);
+    report.surface = reportSurface(*surface, config, survey.breaklines.size(), products.dem, *projection);
     if (report.surface.cells_with_height == 0) {
         return badData(
             fmt::format("no cell of {:g} m has its centre on the surface", products.dem.geometry.cell_m),
@@ -414,7 +468,7 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     report.tuning = config.tuning;
     if (config.tuning && config.tuning->in_use) markTunedOn(survey, *config.tuning, report.residuals);
     report.missing_residuals = std::move(comparison->missing);
-    auto relief = reliefPicture(tin, *projection, products.ground_points);
+    auto relief = reliefPicture(surface->model, *projection, products.ground_points);
     if (!relief) return tl::unexpected(relief.error());
     report.relief = std::move(*relief);
     report.limitations = sharedLimitations(fused->runs);
@@ -426,7 +480,7 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
                            projection->warnings().end());
     report = withAccuracy(std::move(report));
 
-    products.surface = tin.mesh();
+    products.surface = ground.mesh;
     products.crs_wkt2 = projection->wkt2();
     for (FusedRun& run : fused->runs) products.trajectories.push_back(std::move(run.trajectory));
     progress.report(1.0, "processed");

@@ -79,7 +79,7 @@ Result<LinearProjection> linearised(const MapProjection& projection, const GridG
 
 }  // namespace
 
-Result<ReliefPicture> reliefPicture(const DelaunayTin& tin, const MapProjection& projection,
+Result<ReliefPicture> reliefPicture(const SurfaceModel& surface, const MapProjection& projection,
                                     const std::vector<GroundPoint>& ground_points) {
     ElevationGrid grid{pictureFrame(ground_points), {}};
     const GridGeometry& g = grid.geometry;
@@ -89,7 +89,7 @@ Result<ReliefPicture> reliefPicture(const DelaunayTin& tin, const MapProjection&
     tbb::parallel_for(std::size_t{0}, g.rows, [&](std::size_t row) {
         for (std::size_t column = 0; column < g.columns; ++column) {
             const Eigen::Vector2d at = (*to_map)(g.centreX(column), g.centreY(row));
-            const auto height_m = tin.heightAt(at.x(), at.y());
+            const auto height_m = surface.heightAt(at.x(), at.y());
             if (height_m) grid.heights_m[row * g.columns + column] = static_cast<float>(*height_m);
         }
     });

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "app/pipeline/surface_model.hpp"
 #include "io/map_projection.hpp"
-#include "mapping/delaunay_tin.hpp"
 #include "survey/ground_point.hpp"
 #include "survey/relief_image.hpp"
 #include "survey/result.hpp"
@@ -12,7 +12,8 @@ namespace terrawalk {
 
 /// The surface as a shaded picture in the local frame, for the map of the report: some 800 pixels on its
 /// longer side.
-[[nodiscard]] Result<ReliefPicture> reliefPicture(const DelaunayTin& tin, const MapProjection& projection,
+[[nodiscard]] Result<ReliefPicture> reliefPicture(const SurfaceModel& surface,
+                                                  const MapProjection& projection,
                                                   const std::vector<GroundPoint>& ground_points);
 
 }  // namespace terrawalk

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -15,9 +14,9 @@
 #include "io/read_breaklines.hpp"
 #include "io/read_points.hpp"
 #include "io/write_products.hpp"
-#include "mapping/constrained_tin.hpp"
-#include "mapping/delaunay_tin.hpp"
 #include "mapping/gridding.hpp"
+#include "mapping/point_cleaning.hpp"
+#include "mapping/thinning.hpp"
 
 namespace terrawalk {
 namespace {
@@ -34,24 +33,27 @@ fs::path uncertaintyFile(const SurfaceRequest& request) {
     return beside(request.output, "_uncertainty.tif");
 }
 
+fs::path edgesFile(const SurfaceRequest& request) {
+    return beside(request.output, "_terrace_edges.gpkg");
+}
+
 fs::path reportFile(const SurfaceRequest& request) {
     return beside(request.output, ".json");
 }
 
 Result<void> checkRequest(const SurfaceRequest& request) {
     for (const fs::path& input : {request.points, request.breaklines}) {
-        for (const fs::path& output : {request.output, uncertaintyFile(request), reportFile(request)}) {
+        for (const fs::path& output :
+             {request.output, uncertaintyFile(request), edgesFile(request), reportFile(request)}) {
             std::error_code error;
             if (!fs::equivalent(input, output, error)) continue;
             return usageError(fmt::format("the output would replace {}", input.string()),
                               "choose another name for it");
         }
     }
-    const bool follows = !request.method || *request.method == InterpolationMethod::Linear ||
-                         *request.method == InterpolationMethod::CloughTocher;
-    if (!request.breaklines.empty() && !follows) {
-        return usageError(fmt::format("method {} cannot follow breaklines", name(*request.method)),
-                          "use linear or clough-tocher");
+    if (auto fits = checkMethod(request.model, !request.breaklines.empty()); !fits) return fits;
+    if (!(request.thinning_cell_m >= 0.0) || !std::isfinite(request.thinning_cell_m)) {
+        return usageError("the cells to thin by may not be below zero");
     }
     if (!(request.resolution >= 0.0) || !std::isfinite(request.resolution)) {
         return usageError("the resolution may not be below zero");
@@ -93,89 +95,46 @@ Result<CoordinateSystem> coordinateSystemOf(const SurfaceRequest& request, const
     return crs;
 }
 
-Result<CrossValidation> judge(const SurfaceRequest& request, const ScatteredPoints& points,
-                              Progress& progress, const std::stop_token& stop) {
-    CrossValidationOptions options;
-    options.seed = request.seed;
-    // A method that was named is judged beside the plain one.
-    if (!request.breaklines.empty() && !request.method) {
-        options.methods = {InterpolationMethod::Linear, InterpolationMethod::CloughTocher};
-    } else if (request.method) {
-        options.methods = {InterpolationMethod::Linear};
-        if (*request.method != InterpolationMethod::Linear) options.methods.push_back(*request.method);
-    }
-    return crossValidate(points.points, points.sigmas, request.interpolation, options, progress, stop);
-}
-
-/// The triangles that count as ground, and with breaklines what the methods need of them.
-struct Ground {
-    TriangleMesh mesh;
-    double longest_edge = 0.0;
-    double area = 0.0;
-    std::shared_ptr<const ConstrainedTin> constrained;  ///< null without breaklines
-};
-
 Result<std::vector<Breakline>> breaklinesOf(const SurfaceRequest& request, const CoordinateSystem& crs,
                                             Progress& progress, const std::stop_token& stop) {
     auto file = readBreaklines(request.breaklines, progress, stop);
     if (!file) return tl::unexpected(file.error());
-    if (!file->crs.empty()) {
-        const auto own = describeCrs(file->crs);
-        if (!own) return tl::unexpected(own.error());
-        if (own->name != crs.name) {
-            return badData(fmt::format("the breaklines are in {}, the points in {}", own->name, crs.name),
-                           request.breaklines, 0, "bring both to one CRS; --crs names that of the points");
-        }
+    if (auto same = checkBreaklineCrs(file->crs, crs.name, request.breaklines); !same) {
+        return tl::unexpected(same.error());
     }
     return std::move(file->lines);
 }
 
-Result<Ground> groundOf(const SurfaceRequest& request, const ScatteredPoints& points, SurfaceOutcome& report,
-                        Progress& progress, const std::stop_token& stop) {
-    if (request.breaklines.empty()) {
-        const auto tin = DelaunayTin::build(points.points, {request.longest_edge}, progress, stop);
-        if (!tin) return tl::unexpected(tin.error());
-        return Ground{tin->mesh(), tin->longestEdge_m(), tin->area_m2(), nullptr};
+/// Cleans and thins. What it takes are ground points in metres.
+Result<void> cleanInput(const SurfaceRequest& request, double metres_per_unit, SurfaceInput& input,
+                        SurfaceOutcome& report, Progress& progress, const std::stop_token& stop) {
+    if (!request.cleaning.any() && request.thinning_cell_m == 0.0) return {};
+    std::vector<GroundPoint> points(input.points_m.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        points[i].epoch = static_cast<std::uint32_t>(i);
+        points[i].enu_m = metres_per_unit * input.points_m[i];
     }
-    const auto lines = breaklinesOf(request, report.crs, progress, stop);
-    if (!lines) return tl::unexpected(lines.error());
-    report.breaklines_used = lines->size();
-    ConstrainedTinOptions options;
-    options.longest_edge_m = request.longest_edge;
-    auto tin = buildConstrainedTin(points.points, *lines, options, progress, stop);
-    if (!tin) return tl::unexpected(tin.error());
-    if (tin->merged > 0) {
-        report.notes.push_back(fmt::format("{} points lay within {} {} of another or of a breakline",
-                                           tin->merged, options.near_m, report.crs.unit.symbol));
+    auto cleaned = cleanGroundPoints(std::move(points), request.cleaning, progress, stop);
+    if (!cleaned) return tl::unexpected(cleaned.error());
+    points = thinGroundPoints(std::move(*cleaned), request.thinning_cell_m);
+    report.points_left_out = leftOutByReason(points);
+    SurfaceInput kept{{}, {}, std::move(input.breaklines)};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (points[i].state != GroundPointState::Used) continue;
+        kept.points_m.push_back(input.points_m[i]);
+        if (!input.sigmas_m.empty()) kept.sigmas_m.push_back(input.sigmas_m[i]);
     }
-    const auto shared = std::make_shared<const ConstrainedTin>(std::move(*tin));
-    return Ground{shared->groundMesh(), shared->longest_edge_m, shared->area_m2, shared};
+    input = std::move(kept);
+    return {};
 }
 
-Result<GridGeometry> geometryOf(const SurfaceRequest& request, const Ground& ground) {
+Result<GridGeometry> geometryOf(const SurfaceRequest& request, const GroundTriangles& ground) {
     const double cell = request.resolution > 0.0
                             ? request.resolution
-                            : suggestCellSize(ground.area, ground.mesh.vertices_m.size());
+                            : suggestCellSize(ground.area_m2, ground.mesh.vertices_m.size());
     if (!request.extent) return gridCovering(ground.mesh, cell);
     const auto& [west, south, east, north] = *request.extent;
     return gridCovering(GridExtent{west, south, east, north}, cell);
-}
-
-Result<InterpolatedGrid> gridBy(const SurfaceRequest& request, const ScatteredPoints& points,
-                                InterpolationMethod method, const Ground& ground,
-                                const GridGeometry& geometry, Progress& progress,
-                                const std::stop_token& stop) {
-    PartialProgress masking(progress, 0.0, 0.1);
-    auto within = rasterize(ground.mesh, geometry, masking, stop);
-    if (!within) return tl::unexpected(within.error());
-    if (method == InterpolationMethod::Linear) return InterpolatedGrid{std::move(*within), {}};
-    PartialProgress fitting(progress, 0.1, 0.4);
-    const auto surface = ground.constrained ? fitInterpolator(method, ground.constrained)
-                                            : fitInterpolator(method, points.points, points.sigmas,
-                                                              request.interpolation, fitting, stop);
-    if (!surface) return tl::unexpected(surface.error());
-    PartialProgress gridding(progress, 0.4, 1.0);
-    return interpolateGrid(**surface, geometry, within->heights_m, gridding, stop);
 }
 
 void summarize(const ElevationGrid& grid, SurfaceOutcome& report) {
@@ -195,7 +154,15 @@ ElevationGrid standardErrors(const InterpolatedGrid& grid) {
     return errors;
 }
 
-Result<void> writeFiles(const InterpolatedGrid& grid, SurfaceOutcome& report, const std::stop_token& stop) {
+/// A file of an earlier run would be taken for this one's.
+void noteLeftOver(const fs::path& file, const std::string& reason, std::vector<std::string>& notes) {
+    if (std::error_code error; fs::exists(file, error)) {
+        notes.push_back(fmt::format("{} does not belong to this DEM: {}", file.filename().string(), reason));
+    }
+}
+
+Result<void> writeFiles(const InterpolatedGrid& grid, const std::vector<TerraceEdge>& edges,
+                        SurfaceOutcome& report, const std::stop_token& stop) {
     const SurfaceRequest& request = report.request;
     DemDescription description{.crs_wkt2 = report.crs.wkt2,
                                .vertical_datum = report.crs.vertical_datum,
@@ -205,22 +172,34 @@ Result<void> writeFiles(const InterpolatedGrid& grid, SurfaceOutcome& report, co
                                             {"POINTS", std::to_string(report.points_used)}},
                                .unit = report.crs.unit.symbol};
     report.files = {request.output};
-    if (!grid.variances_m2.empty()) {
-        report.files.push_back(uncertaintyFile(request));
-    } else if (std::error_code error; fs::exists(uncertaintyFile(request), error)) {
-        report.notes.push_back(fmt::format("{} does not belong to this DEM: method {} gives no uncertainty",
-                                           uncertaintyFile(request).filename().string(),
-                                           name(report.method)));
-    }
-    report.files.push_back(reportFile(request));
     if (auto done = writeDem(grid.heights, description, request.output, stop); !done) return done;
-    if (!grid.variances_m2.empty()) {
+    if (grid.variances_m2.empty()) {
+        noteLeftOver(uncertaintyFile(request),
+                     fmt::format("method {} gives no uncertainty", name(report.method)), report.notes);
+    } else {
         description.quantity = "Standard error of kriging";
         description.title = fmt::format("{}, standard error", request.points.stem().string());
-        if (auto done = writeDem(standardErrors(grid), description, report.files[1], stop); !done)
+        report.files.push_back(uncertaintyFile(request));
+        if (auto done = writeDem(standardErrors(grid), description, report.files.back(), stop); !done)
             return done;
     }
+    if (edges.empty()) {
+        noteLeftOver(edgesFile(request), "it keeps to no terrace edges", report.notes);
+    } else {
+        report.files.push_back(edgesFile(request));
+        if (auto done = writeBreaklines(softBreaklines(edges), "terrace_edges", report.crs.wkt2,
+                                        report.files.back(), stop);
+            !done)
+            return done;
+    }
+    report.files.push_back(reportFile(request));
     return writeTextFile(toJson(report), report.files.back());
+}
+
+nlohmann::ordered_json reasonsJson(const std::vector<CountedReason>& reasons) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const CountedReason& r : reasons) list.push_back({{"reason", r.reason}, {"count", r.count}});
+    return list;
 }
 
 nlohmann::ordered_json validationJson(const CrossValidation& validation) {
@@ -277,7 +256,7 @@ std::string validationText(const CrossValidation& validation, const std::string&
 Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& progress, std::stop_token stop) {
     if (auto checked = checkRequest(request); !checked) return tl::unexpected(checked.error());
     PartialProgress reading(progress, 0.0, 0.2);
-    const auto points = readPoints(request.points, {request.las_classes}, reading, stop);
+    auto points = readPoints(request.points, {request.las_classes}, reading, stop);
     if (!points) return tl::unexpected(points.error());
     SurfaceOutcome report;
     report.request = request;
@@ -290,18 +269,33 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
     if (!hash) return tl::unexpected(hash.error());
     report.points_sha256 = std::move(*hash);
 
-    PartialProgress triangulating(progress, 0.2, 0.3);
-    const auto ground = groundOf(request, *points, report, triangulating, stop);
+    SurfaceModelOptions model = request.model;
+    model.metres_per_unit = report.crs.unit.metres;
+    SurfaceInput input{std::move(points->points), std::move(points->sigmas), {}};
+    if (!request.breaklines.empty()) {
+        auto lines = breaklinesOf(request, report.crs, progress, stop);
+        if (!lines) return tl::unexpected(lines.error());
+        input.breaklines = std::move(*lines);
+        report.breaklines_used = input.breaklines.size();
+    }
+    PartialProgress cleaning(progress, 0.2, 0.25);
+    if (auto done = cleanInput(request, model.metres_per_unit, input, report, cleaning, stop); !done) {
+        return tl::unexpected(done.error());
+    }
+    PartialProgress triangulating(progress, 0.25, 0.35);
+    auto ground = triangulateGround(input, model, triangulating, stop);
     if (!ground) return tl::unexpected(ground.error());
-    report.longest_edge = ground->longest_edge;
-    report.points_used = points->points.size();
+    report.longest_edge = ground->longest_edge_m;
+    report.points_used = input.points_m.size();
+    report.terrace_edges = summaryOf(ground->terrace_edges);
+    report.notes.insert(report.notes.end(), ground->notes.begin(), ground->notes.end());
     const auto geometry = geometryOf(request, *ground);
     if (!geometry) return tl::unexpected(geometry.error());
     report.geometry = *geometry;
 
     // Before the long work: whether kriging, with its variances, will be chosen is not known yet.
-    const bool variances = !request.method || *request.method == InterpolationMethod::Kriging;
-    const MemoryNeed need{points->points.size(), geometry->size(), variances};
+    const bool variances = !model.method || *model.method == InterpolationMethod::Kriging;
+    const MemoryNeed need{input.points_m.size(), geometry->size(), variances};
     report.memory_need_bytes = need.bytes();
     progress.message(
         Severity::Info,
@@ -312,23 +306,24 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
             return tl::unexpected(fits.error());
     }
 
-    report.method = request.method.value_or(InterpolationMethod::Linear);
-    if (request.cross_validate || !request.method) {
-        PartialProgress judging(progress, 0.3, 0.7);
-        auto validation = judge(request, *points, judging, stop);
-        if (!validation) return tl::unexpected(validation.error());
-        if (!request.method) report.method = validation->ranking.front();
-        report.validation = std::move(*validation);
-        if (!request.breaklines.empty()) {
-            report.notes.emplace_back("the cross-validation is of the points without the breaklines");
-        }
+    PartialProgress judging(progress, 0.35, 0.7);
+    auto choice = chooseMethod(input, *ground, model, judging, stop);
+    if (!choice) return tl::unexpected(choice.error());
+    report.method = choice->method;
+    report.validation = std::move(choice->validation);
+    if (!choice->note.empty()) report.notes.push_back(choice->note);
+    if (report.validation && ground->constrained) {
+        report.notes.emplace_back("the cross-validation is of the points without the breaklines");
     }
-    PartialProgress gridding(progress, 0.7, 0.9);
-    const auto grid = gridBy(request, *points, report.method, *ground, *geometry, gridding, stop);
+    PartialProgress fitting(progress, 0.7, 0.8), gridding(progress, 0.8, 0.9);
+    const auto surface = SurfaceModel::fit(input, std::move(*ground), report.method, model, fitting, stop);
+    if (!surface) return tl::unexpected(surface.error());
+    const auto grid = surface->grid(*geometry, gridding, stop);
     if (!grid) return tl::unexpected(grid.error());
     summarize(grid->heights, report);
     progress.report(0.9, "writing");
-    if (auto done = writeFiles(*grid, report, stop); !done) return tl::unexpected(done.error());
+    if (auto done = writeFiles(*grid, surface->ground().terrace_edges, report, stop); !done)
+        return tl::unexpected(done.error());
     progress.report(1.0, "done");
     return report;
 }
@@ -340,9 +335,17 @@ std::string toText(const SurfaceOutcome& report) {
         "{} with a "
         "height\nHeights     {:.3f} to {:.3f} {}\n",
         report.points_used, report.points_in_file, report.request.points.string(), report.crs.name,
-        name(report.method), report.request.method ? "" : ", the best by cross-validation",
+        name(report.method), report.request.model.method ? "" : ", the best by cross-validation",
         report.geometry.columns, report.geometry.rows, report.geometry.cell_m, unit, report.cells_with_height,
         report.least_height, report.greatest_height, unit);
+    for (const CountedReason& reason : report.points_left_out) {
+        text += fmt::format("Left out    {} points: {}\n", reason.count, reason.reason);
+    }
+    if (report.terrace_edges.count > 0) {
+        text += fmt::format("Edges       {} terrace edges, {:.0f} {} long in all, median step {:.2f} {}\n",
+                            report.terrace_edges.count, report.terrace_edges.length_m, unit,
+                            report.terrace_edges.median_step_m, unit);
+    }
     if (report.validation) text += validationText(*report.validation, unit);
     for (const std::string& note : report.notes) text += "Note: " + note + "\n";
     for (const fs::path& file : report.files) text += "Written to " + file.string() + "\n";
@@ -360,11 +363,19 @@ std::string toJson(const SurfaceOutcome& report) {
         {"points_sha256", report.points_sha256},
         {"points_in_file", report.points_in_file},
         {"points_used", report.points_used},
+        {"points_left_out", reasonsJson(report.points_left_out)},
         {"breaklines", report.breaklines_used},
+        {"terrace_edges",
+         {{"requested", name(report.request.model.terrace_edges)},
+          {"count", report.terrace_edges.count},
+          {"length", report.terrace_edges.length_m},
+          {"median_step", report.terrace_edges.median_step_m},
+          {"median_location_sigma", report.terrace_edges.median_location_sigma_m}}},
         {"crs", report.crs.name},
         {"vertical_datum", report.crs.vertical_datum},
         {"unit", report.crs.unit.symbol},
-        {"method_requested", report.request.method ? std::string(name(*report.request.method)) : "auto"},
+        {"method_requested",
+         report.request.model.method ? std::string(name(*report.request.model.method)) : "auto"},
         {"method", name(report.method)},
         {"grid",
          {{"west", g.west_m},
@@ -377,7 +388,7 @@ std::string toJson(const SurfaceOutcome& report) {
                                                             : nlohmann::ordered_json(nullptr)},
         {"least_height", report.least_height},
         {"greatest_height", report.greatest_height},
-        {"seed", report.request.seed},
+        {"seed", report.request.model.seed},
         {"notes", report.notes},
         {"files", files}};
     if (report.validation) document["cross_validation"] = validationJson(*report.validation);

@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "app/pipeline/surface_model.hpp"
 #include "io/coordinate_system.hpp"
 #include "mapping/cross_validation.hpp"
+#include "mapping/point_cleaning.hpp"
 #include "survey/elevation_grid.hpp"
 #include "survey/progress.hpp"
 #include "survey/result.hpp"
@@ -19,17 +21,15 @@ namespace terrawalk {
 struct SurfaceRequest {
     std::filesystem::path points;
     std::filesystem::path output;                 ///< GeoTIFF
-    std::optional<InterpolationMethod> method;    ///< nothing: the best by cross-validation
+    PointCleaningOptions cleaning;                ///< in metres, whatever the points are in
+    double thinning_cell_m = 0.0;                 ///< the same; one point stands for each cell; 0: all points
+    SurfaceModelOptions model;                    ///< its unit is that of the points
     double resolution = 0.0;                      ///< 0: from the point spacing
     std::optional<std::array<double, 4>> extent;  ///< xmin, ymin, xmax, ymax; nothing: all points
     std::filesystem::path breaklines;             ///< vector file; empty: none
-    double longest_edge = 0.0;                    ///< of triangles that count as ground; 0: from the points
     std::string crs;                              ///< where the file has none; empty: none
     std::string unit;                             ///< "m", "ft", "us-ft"; empty: by CRS or file, else metre
     std::vector<int> las_classes;
-    bool cross_validate = true;  ///< needed where the method is not named
-    InterpolationOptions interpolation;
-    std::uint64_t seed = 1;
 };
 
 /// What was made, and how.
@@ -38,7 +38,9 @@ struct SurfaceOutcome {
     CoordinateSystem crs;
     std::size_t points_in_file = 0;
     std::size_t points_used = 0;
+    std::vector<CountedReason> points_left_out;  ///< by cleaning and thinning
     std::size_t breaklines_used = 0;
+    TerraceEdgeSummary terrace_edges;
     InterpolationMethod method = InterpolationMethod::Linear;
     GridGeometry geometry;
     double longest_edge = 0.0;
@@ -56,7 +58,8 @@ struct SurfaceOutcome {
 /// "_uncertainty.tif" (standard error), and OUTPUT's stem + ".json", the report. Cells outside the triangles
 /// within the longest edge stay empty, whatever the method. Without a method the first of the ranking is
 /// taken. Memory is told before the grid is made. Errors: as the steps; System when the memory does not
-/// suffice; Cancelled. Each file appears whole or not at all, the report last.
+/// suffice; Cancelled. Terrace edges that were found are written to OUTPUT's stem + "_terrace_edges.gpkg".
+/// Each file appears whole or not at all, the report last.
 [[nodiscard]] Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& progress,
                                                  std::stop_token stop);
 

@@ -27,6 +27,7 @@ Result<InputFile> describeInput(const fs::path& file, const fs::path& folder) {
 Result<std::vector<InputFile>> describeInputs(const Survey& survey) {
     std::vector<fs::path> files{survey.project_file};
     if (!survey.control_file.empty()) files.push_back(survey.control_file);
+    if (!survey.breakline_file.empty()) files.push_back(survey.breakline_file);
     for (const Run& run : survey.runs) files.push_back(run.log.file);
     std::vector<InputFile> inputs;
     for (const fs::path& file : files) {
@@ -118,6 +119,12 @@ Result<void> writeProducts(const Survey& survey, const Products& products, const
              return writeTextFile(summaryText(products), f);
          }},
     };
+    if (!products.terrace_edges.empty()) {
+        writers.emplace_back("terrace_edges.gpkg", [&](const fs::path& f) {
+            return writeBreaklines(softBreaklines(products.terrace_edges), "terrace_edges", products.crs_wkt2,
+                                   f, stop);
+        });
+    }
     for (const Trajectory& trajectory : products.trajectories) {
         writers.emplace_back("trajectory/" + trajectory.run_id + ".csv",
                              [&](const fs::path& f) { return writeTrajectoryCsv(trajectory, f); });
@@ -147,6 +154,10 @@ std::string summaryText(const Products& products) {
                         surface.rows, surface.cell_m, surface.crs);
     text += fmt::format("  mesh     surface.ply   {} points, {} triangles\n",
                         products.surface.vertices_m.size(), surface.triangles);
+    if (!products.terrace_edges.empty()) {
+        text += fmt::format("  edges    terrace_edges.gpkg  {} terrace edges, {:.0f} m in all\n",
+                            surface.terrace_edges.count, surface.terrace_edges.length_m);
+    }
     text += "  report   report.html\n";
     for (const KeyFigure& figure : products.report.figures) {
         text += fmt::format("  {}: {}{}{}{}\n", figure.label, figure.value, figure.detail.empty() ? "" : " (",

@@ -299,7 +299,8 @@ TEST(Statements, PointOutABlunderAndABias) {
 TEST(Statements, TiedComparisonsAreNamedAsNotCounted) {
     SurveyReport report = exampleReport({});
     report.residuals.front().used_by_estimator = true;
-    EXPECT_THAT(withAccuracy(report).limitations, Contains(HasSubstr("tied to the mark or tuned on it in 1 comparison;")));
+    EXPECT_THAT(withAccuracy(report).limitations,
+                Contains(HasSubstr("tied to the mark or tuned on it in 1 comparison;")));
 }
 
 }  // namespace

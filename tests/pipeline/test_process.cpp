@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <fmt/format.h>
+
 #include <GeographicLib/UTMUPS.hpp>
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -160,6 +163,87 @@ TEST(Process, AStopRequestEndsIt) {
     const auto products = process(s.survey, {}, silent, stop.get_token());
     ASSERT_FALSE(products);
     EXPECT_EQ(products.error().kind, ErrorKind::Cancelled);
+}
+
+TEST(Process, GridsByEveryMethodAndSaysWhich) {
+    const SimulatedSurvey s = simulatedSurvey(smallField());
+    PipelineConfig config;
+    config.fusion.method = FusionMethod::Raw;
+    config.surface.cross_validate = false;
+    const Products plain = processed(s.survey, config);
+    EXPECT_EQ(plain.report.surface.method_used, "linear");
+    for (const auto& [method, text] : kInterpolationMethods) {
+        if (method == InterpolationMethod::Linear) continue;
+        ASSERT_TRUE(applySetting(config, fmt::format("surface.method=\"{}\"", text)));
+        const Products products = processed(s.survey, config);
+        EXPECT_EQ(products.report.surface.method_requested, text);
+        EXPECT_EQ(products.report.surface.method_used, text);
+        EXPECT_EQ(products.used.surface.method, method);
+        ASSERT_EQ(products.dem.heights_m.size(), plain.dem.heights_m.size());
+        EXPECT_NE(products.dem.heights_m, plain.dem.heights_m) << text;
+        double off_m = 0.0;
+        std::size_t cells = 0;
+        for (std::size_t i = 0; i < plain.dem.heights_m.size(); ++i) {
+            if (std::isnan(plain.dem.heights_m[i]) || std::isnan(products.dem.heights_m[i])) continue;
+            off_m += std::abs(plain.dem.heights_m[i] - products.dem.heights_m[i]);
+            ++cells;
+        }
+        ASSERT_GT(cells, 100u);
+        EXPECT_LT(off_m / static_cast<double>(cells), 0.5) << text << ": it is the same ground";
+    }
+    config.surface.method.reset();
+    const Products best = processed(s.survey, config);
+    ASSERT_TRUE(best.report.surface.comparison);
+    EXPECT_EQ(best.report.surface.method_requested, "auto");
+    EXPECT_EQ(best.report.surface.method_used, best.report.surface.comparison->ranking.front());
+}
+
+TEST(Process, KeepsToTheSurveysBreaklines) {
+    SimulatedSurvey s = simulatedSurvey(smallField());
+    s.survey.crs.clear();
+    PipelineConfig config;
+    config.fusion.method = FusionMethod::Raw;
+    const Products plain = processed(s.survey, config);
+    const GridGeometry& g = plain.dem.geometry;
+    const double east_m = g.west_m + 0.5 * static_cast<double>(g.columns) * g.cell_m;
+    const double north_m = g.north_m - 0.5 * static_cast<double>(g.rows) * g.cell_m;
+    const double wall_m = plain.report.surface.highest_m + 5.0;
+    s.survey.breaklines = {
+        {{{east_m - 2.0, north_m, wall_m}, {east_m + 2.0, north_m, wall_m}}, BreaklineKind::Hard, "wall"}};
+    const Products walled = processed(s.survey, config);
+    EXPECT_EQ(walled.report.surface.breaklines, 1u);
+    EXPECT_NEAR(walled.report.surface.highest_m, wall_m, 2.5) << "cells beside the line are lower";
+    EXPECT_GT(walled.report.surface.highest_m, plain.report.surface.highest_m + 1.0);
+    config.surface.method = InterpolationMethod::Kriging;
+    SilentProgress silent;
+    EXPECT_EQ(process(s.survey, config, silent, {}).error().kind, ErrorKind::Usage);
+    config.surface.method = InterpolationMethod::Linear;
+    s.survey.breakline_crs = "EPSG:32650";
+    EXPECT_EQ(process(s.survey, config, silent, {}).error().kind, ErrorKind::BadData);
+}
+
+TEST(Process, CleansTheGroundPointsWhenAsked) {
+    const SimulatedSurvey s = simulatedSurvey(smallField());
+    PipelineConfig config;
+    config.fusion.method = FusionMethod::Raw;
+    const auto isolated = [](const Products& products) {
+        return std::count_if(
+            products.ground_points.begin(), products.ground_points.end(),
+            [](const GroundPoint& point) { return point.state == GroundPointState::Isolated; });
+    };
+    EXPECT_EQ(isolated(processed(s.survey, config)), 0);
+    ASSERT_TRUE(applySetting(config, "surface.clean.radius.use=true"));
+    ASSERT_TRUE(applySetting(config, "surface.clean.radius.radius_m=0.2"));
+    ASSERT_TRUE(applySetting(config, "surface.clean.radius.least_neighbours=3"));
+    const Products products = processed(s.survey, config);
+    ASSERT_GT(isolated(products), 0);
+    std::size_t reported = 0;
+    for (const RunReport& run : products.report.runs) {
+        for (const CountedReason& reason : run.ground_points_rejected) {
+            if (reason.reason == "isolated") reported += reason.count;
+        }
+    }
+    EXPECT_EQ(reported, static_cast<std::size_t>(isolated(products)));
 }
 
 TEST(Process, ProgressStaysInRangeAndEndsAtOne) {

@@ -8,6 +8,7 @@
 #include "app/pipeline/memory_need.hpp"
 #include "app/pipeline/surface.hpp"
 #include "app/pipeline/volume_job.hpp"
+#include "io/read_breaklines.hpp"
 #include "tests/support/random_numbers.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -44,7 +45,7 @@ TEST(Surface, WritesTheDemAndTheReportBesideIt) {
     SurfaceRequest request;
     request.points = folder / "plane.csv";
     request.output = folder / "dem.tif";
-    request.method = InterpolationMethod::NaturalNeighbour;
+    request.model.method = InterpolationMethod::NaturalNeighbour;
     request.extent = {500'005.0, 2'500'005.0, 500'010.5, 2'500'009.0};
     request.resolution = 1.0;
     const auto outcome = surfaceOf(request);
@@ -101,10 +102,10 @@ TEST(Surface, FollowsBreaklinesOfAVectorFile) {
     EXPECT_NEAR(outcome->greatest_height, 18.0, 0.06);
     request.crs = "EPSG:32650";
     EXPECT_THAT(surfaceOf(request).error().text(), HasSubstr("the breaklines are in"));
-    request.method = InterpolationMethod::Kriging;
+    request.model.method = InterpolationMethod::Kriging;
     EXPECT_EQ(surfaceOf(request).error().kind, ErrorKind::Usage);
     request.breaklines = request.points;
-    request.method.reset();
+    request.model.method.reset();
     EXPECT_THAT(surfaceOf(request).error().text(), HasSubstr("no line"));
 }
 
@@ -136,7 +137,7 @@ TEST(Surface, NeverReplacesWhatItReads) {
     request.points = folder / "plane_uncertainty.tif.csv";
     request.breaklines = folder / "lines.json";
     request.output = folder / "lines.tif";
-    request.method = InterpolationMethod::Linear;
+    request.model.method = InterpolationMethod::Linear;
     const auto outcome = surfaceOf(request);
     ASSERT_FALSE(outcome);
     EXPECT_EQ(outcome.error().kind, ErrorKind::Usage);
@@ -152,18 +153,106 @@ TEST(Surface, SaysWhenAnOlderUncertaintyLiesBesideIt) {
     request.points = folder / "plane.csv";
     request.output = folder / "dem.tif";
     request.resolution = 2.0;
-    request.cross_validate = false;
-    request.method = InterpolationMethod::Linear;
+    request.model.cross_validate = false;
+    request.model.method = InterpolationMethod::Linear;
     const auto alone = surfaceOf(request);
     ASSERT_TRUE(alone);
     EXPECT_THAT(alone->notes, Not(Contains(HasSubstr("dem_uncertainty.tif"))));
-    request.method = InterpolationMethod::Kriging;
+    request.model.method = InterpolationMethod::Kriging;
     ASSERT_TRUE(surfaceOf(request));
     ASSERT_TRUE(std::filesystem::exists(folder / "dem_uncertainty.tif"));
-    request.method = InterpolationMethod::Linear;
+    request.model.method = InterpolationMethod::Linear;
     const auto again = surfaceOf(request);
     ASSERT_TRUE(again);
     EXPECT_THAT(again->notes, Contains(HasSubstr("dem_uncertainty.tif")));
+}
+
+/// Treads of 20 ft that climb to the north by steps of 3 ft.
+void writeTerraces(const std::filesystem::path& file) {
+    RandomNumbers random(2);
+    std::string text = "x_ft,y_ft,z_ft\n";
+    for (int i = 0; i < 1200; ++i) {
+        const double x = random.uniform(0.0, 100.0), y = random.uniform(0.0, 100.0);
+        const double into = (y - 10.0) / 20.0 - std::floor((y - 10.0) / 20.0);
+        const double z = 3.0 * (std::floor((y - 10.0) / 20.0) + std::min(1.0, into * 20.0 / 2.0));
+        text += fmt::format("{:.6f},{:.6f},{:.6f}\n", x, y, z + 0.1 * random.normal());
+    }
+    writeBytes(file, text);
+}
+
+TEST(Surface, KeepsToTerraceEdgesThatItFinds) {
+    const TemporaryFolder folder;
+    writeTerraces(folder / "terraces.csv");
+    SurfaceRequest request;
+    request.points = folder / "terraces.csv";
+    request.output = folder / "dem.tif";
+    request.model.method = InterpolationMethod::Linear;
+    request.resolution = 1.0;
+    const auto found = surfaceOf(request);
+    ASSERT_TRUE(found) << found.error().text();
+    EXPECT_GT(found->terrace_edges.length_m, 250.0);
+    EXPECT_NEAR(found->terrace_edges.median_step_m, 3.0, 0.3);
+    ASSERT_THAT(found->files, Contains(folder / "dem_terrace_edges.gpkg"));
+    SilentProgress silent;
+    const auto lines = readBreaklines(folder / "dem_terrace_edges.gpkg", silent, {});
+    ASSERT_TRUE(lines) << lines.error().text();
+    ASSERT_EQ(lines->lines.size(), 2 * found->terrace_edges.count);
+    EXPECT_EQ(lines->lines.front().kind, BreaklineKind::Soft);
+    EXPECT_TRUE(std::isfinite(lines->lines.front().vertices_m.front().z()));
+    const auto report = nlohmann::json::parse(bytesOf(folder / "dem.json"));
+    EXPECT_EQ(report.at("terrace_edges").at("requested"), "auto");
+    EXPECT_EQ(report.at("terrace_edges").at("count"), found->terrace_edges.count);
+    const std::string dem = bytesOf(folder / "dem.tif"), edges = bytesOf(folder / "dem_terrace_edges.gpkg");
+    ASSERT_TRUE(surfaceOf(request));
+    EXPECT_EQ(bytesOf(folder / "dem.tif"), dem);
+    EXPECT_EQ(bytesOf(folder / "dem_terrace_edges.gpkg"), edges);
+
+    // The lines can be given back by hand.
+    request.breaklines = folder / "dem_terrace_edges.gpkg";
+    request.output = folder / "again.tif";
+    request.model.terrace_edges = TerraceEdgeUse::Off;
+    const auto again = surfaceOf(request);
+    ASSERT_TRUE(again) << again.error().text();
+    EXPECT_EQ(again->terrace_edges.count, 0u);
+
+    request.breaklines.clear();
+    request.output = folder / "dem.tif";
+    const auto off = surfaceOf(request);
+    ASSERT_TRUE(off);
+    EXPECT_NE(bytesOf(folder / "dem.tif"), dem);
+    EXPECT_THAT(off->notes, Contains(HasSubstr("dem_terrace_edges.gpkg")));
+    request.model.terrace_edges = TerraceEdgeUse::Auto;
+    request.model.method = InterpolationMethod::Nearest;
+    EXPECT_THAT(surfaceOf(request)->notes, Contains(HasSubstr("nearest cannot follow")));
+}
+
+TEST(Surface, CleansAndThinsPointsInTheirOwnUnit) {
+    const TemporaryFolder folder;
+    writePlane(folder / "plane.csv", "x_ft,y_ft,z_ft");
+    std::string text = bytesOf(folder / "plane.csv");
+    text += "500020,2500015,90\n";
+    writeBytes(folder / "plane.csv", text);
+    SurfaceRequest request;
+    request.points = folder / "plane.csv";
+    request.output = folder / "dem.tif";
+    request.model.method = InterpolationMethod::Linear;
+    const auto raw = surfaceOf(request);
+    ASSERT_TRUE(raw);
+    EXPECT_GT(raw->greatest_height, 30.0);
+    request.cleaning.radius.use = true;
+    request.cleaning.radius.radius_m = 3.0;
+    const auto cleaned = surfaceOf(request);
+    ASSERT_TRUE(cleaned) << cleaned.error().text();
+    EXPECT_EQ(cleaned->points_used, 400u);
+    ASSERT_EQ(cleaned->points_left_out.size(), 1u);
+    EXPECT_EQ(cleaned->points_left_out.front().reason, "isolated");
+    EXPECT_LT(cleaned->greatest_height, 15.0);
+    request.thinning_cell_m = 10.0 * 0.3048;
+    const auto thinned = surfaceOf(request);
+    ASSERT_TRUE(thinned);
+    EXPECT_EQ(thinned->points_used, 12u) << "40 x 30 ft in cells of 10 ft";
+    request.thinning_cell_m = -1.0;
+    EXPECT_EQ(surfaceOf(request).error().kind, ErrorKind::Usage);
 }
 
 Result<VolumeOutcome> volumeOfFile(const VolumeRequest& request) {
@@ -178,8 +267,8 @@ TEST(Volume, BetweenAPlaneAndADemOfSurface) {
     SurfaceRequest surface;
     surface.points = folder / "plane.csv";
     surface.output = folder / "dem.tif";
-    surface.method = InterpolationMethod::Linear;
-    surface.cross_validate = false;
+    surface.model.method = InterpolationMethod::Linear;
+    surface.model.cross_validate = false;
     surface.extent = {500'005.0, 2'500'010.0, 500'025.0, 2'500'020.0};
     surface.resolution = 1.0;
     ASSERT_TRUE(surfaceOf(surface));

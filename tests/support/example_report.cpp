@@ -178,19 +178,28 @@ SurveyReport exampleReport(const ExampleSurvey& survey) {
     }
     addStands(report, survey, random);
     addHeightResiduals(report, survey, random);
-    report.surface = {"Delaunay triangulation, linear interpolation",
-                      8542,
-                      16980,
-                      4.5,
-                      4310.4,
-                      0.5,
-                      172,
-                      108,
-                      16811,
-                      -0.412,
-                      12.906,
-                      "WGS 84 / UTM zone 49N (EPSG:32649)",
-                      "local: metres above the zero point"};
+    SurfaceReport& surface = report.surface;
+    surface.method = "Delaunay triangulation, linear interpolation";
+    surface.method_requested = "auto";
+    surface.method_used = "linear";
+    surface.comparison = InterpolationComparison{{"linear", "nearest"},
+                                                 {"random-folds"},
+                                                 {{"linear", "random-folds", 80, 0.073, 0.051, 0.144},
+                                                  {"nearest", "random-folds", 80, 0.122, 0.09, 0.25}},
+                                                 1};
+    surface.terrace_edges = {3, 84.5, 0.92, 0.11};
+    surface.points = 8542;
+    surface.triangles = 16980;
+    surface.longest_edge_m = 4.5;
+    surface.area_m2 = 4310.4;
+    surface.cell_m = 0.5;
+    surface.columns = 172;
+    surface.rows = 108;
+    surface.cells_with_height = 16811;
+    surface.lowest_m = -0.412;
+    surface.highest_m = 12.906;
+    surface.crs = "WGS 84 / UTM zone 49N (EPSG:32649)";
+    surface.vertical_datum = "local: metres above the zero point";
     report.settings = {{"fusion.method", "default", "ukf"},
                        {"dem.cell_m", "0.5", "0.5"},
                        {"tin.longest_edge_m", "default", "4.5"},

@@ -1,0 +1,248 @@
+#include "mapping/point_cleaning.hpp"
+
+#include <fmt/format.h>
+#include <pcl/filters/radius_outlier_removal.h>
+#include <pcl/filters/statistical_outlier_removal.h>
+#include <pcl/point_types.h>
+#include <pcl/segmentation/extract_clusters.h>
+#include <pcl/segmentation/progressive_morphological_filter.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "mapping/point_order.hpp"
+
+namespace terrawalk {
+namespace {
+
+using Cloud = pcl::PointCloud<pcl::PointXYZ>;
+
+/// Used points in curve order, as PCL takes them: float, from an origin near by, so that they lose nothing.
+struct UsedPoints {
+    Cloud::Ptr cloud = pcl::make_shared<Cloud>();
+    std::vector<std::size_t> index;  ///< among all points
+};
+
+UsedPoints usedPoints(const std::vector<GroundPoint>& points) {
+    std::vector<Eigen::Vector3d> places_m;
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (points[i].state != GroundPointState::Used) continue;
+        places_m.push_back(points[i].enu_m);
+        found.push_back(i);
+    }
+    UsedPoints used;
+    if (places_m.empty()) return used;
+    Eigen::Vector3d origin_m = places_m.front();
+    for (const Eigen::Vector3d& place : places_m) origin_m = origin_m.cwiseMin(place);
+    for (const std::uint32_t i : curveOrder(places_m)) {
+        const Eigen::Vector3f p = (places_m[i] - origin_m).cast<float>();
+        used.cloud->push_back(pcl::PointXYZ(p.x(), p.y(), p.z()));
+        used.index.push_back(found[i]);
+    }
+    return used;
+}
+
+/// Indices that are not among those kept; both rise.
+pcl::Indices othersThan(const pcl::Indices& kept, std::size_t count) {
+    pcl::Indices others;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (next < kept.size() && static_cast<std::size_t>(kept[next]) == i) {
+            ++next;
+        } else {
+            others.push_back(static_cast<pcl::index_t>(i));
+        }
+    }
+    return others;
+}
+
+pcl::Indices statisticalOutliers(const Cloud::Ptr& cloud, const StatisticalOutlierOptions& options) {
+    if (cloud->size() <= static_cast<std::size_t>(options.neighbours)) return {};
+    pcl::StatisticalOutlierRemoval<pcl::PointXYZ> filter;
+    filter.setInputCloud(cloud);
+    filter.setMeanK(options.neighbours);
+    filter.setStddevMulThresh(options.sigmas);
+    pcl::Indices kept;
+    filter.filter(kept);
+    return othersThan(kept, cloud->size());
+}
+
+pcl::Indices radiusOutliers(const Cloud::Ptr& cloud, const RadiusOutlierOptions& options) {
+    if (cloud->empty()) return {};
+    pcl::RadiusOutlierRemoval<pcl::PointXYZ> filter;
+    filter.setInputCloud(cloud);
+    filter.setRadiusSearch(options.radius_m);
+    filter.setMinNeighborsInRadius(options.least_neighbours);
+    pcl::Indices kept;
+    filter.filter(kept);
+    return othersThan(kept, cloud->size());
+}
+
+/// PCL takes whole metres.
+int windowLimit_m(const AboveGroundOptions& options) {
+    return static_cast<int>(std::ceil(options.greatest_window_m));
+}
+
+/// The sum of the windows: nothing farther away has a say.
+double reachOf(const AboveGroundOptions& options) {
+    double reach_m = 0.0, window_m = 0.0;
+    for (double power = 1.0; window_m < windowLimit_m(options); power *= 2.0) {
+        window_m = options.cell_m * (2.0 * power + 1.0);
+        reach_m += window_m;
+    }
+    return reach_m;
+}
+
+pcl::Indices groundOf(const Cloud::Ptr& cloud, const AboveGroundOptions& options) {
+    pcl::ProgressiveMorphologicalFilter<pcl::PointXYZ> filter;
+    filter.setInputCloud(cloud);
+    filter.setCellSize(static_cast<float>(options.cell_m));
+    filter.setMaxWindowSize(windowLimit_m(options));
+    filter.setSlope(static_cast<float>(options.slope));
+    filter.setInitialDistance(static_cast<float>(options.least_height_m));
+    filter.setMaxDistance(static_cast<float>(options.greatest_height_m));
+    pcl::Indices ground;
+    filter.extract(ground);
+    return ground;
+}
+
+/// Square by square, each with what lies about it in reach, so that it can be given up in between.
+pcl::Indices narrowThings(const Cloud& cloud, const AboveGroundOptions& options,
+                          const std::stop_token& stop) {
+    constexpr double kReachesInSide = 3.0;
+    const double reach_m = reachOf(options);
+    const double side_m = kReachesInSide * reach_m;
+    std::map<std::pair<long, long>, pcl::Indices> squares;
+    const auto square = [side_m](double at_m) {
+        return std::lround(std::floor(at_m / side_m));
+    };
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        for (long r = square(cloud[i].y - reach_m); r <= square(cloud[i].y + reach_m); ++r) {
+            for (long c = square(cloud[i].x - reach_m); c <= square(cloud[i].x + reach_m); ++c) {
+                squares[{r, c}].push_back(static_cast<pcl::index_t>(i));
+            }
+        }
+    }
+    const std::vector<std::pair<std::pair<long, long>, pcl::Indices>> list(squares.begin(), squares.end());
+    std::vector<char> above(cloud.size(), 0);
+    tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t s) {
+        if (stop.stop_requested()) return;
+        const auto& [at, members] = list[s];
+        const auto part = pcl::make_shared<Cloud>(cloud, members);
+        for (const pcl::index_t i : othersThan(groundOf(part, options), part->size())) {
+            const pcl::index_t whole = members[static_cast<std::size_t>(i)];
+            const pcl::PointXYZ& p = cloud[static_cast<std::size_t>(whole)];
+            const bool inside = square(p.y) == at.first && square(p.x) == at.second;
+            if (inside) above[static_cast<std::size_t>(whole)] = 1;
+        }
+    });
+    pcl::Indices found;
+    for (std::size_t i = 0; i < above.size(); ++i) {
+        if (above[i] != 0) found.push_back(static_cast<pcl::index_t>(i));
+    }
+    return found;
+}
+
+double extentOf(const Cloud& cloud, const pcl::Indices& members) {
+    Eigen::Vector2f least = Eigen::Vector2f::Constant(HUGE_VALF), greatest = -least;
+    for (const pcl::index_t i : members) {
+        const Eigen::Vector2f at = cloud[static_cast<std::size_t>(i)].getVector3fMap().head<2>();
+        least = least.cwiseMin(at);
+        greatest = greatest.cwiseMax(at);
+    }
+    return (greatest - least).norm();
+}
+
+/// Those that belong to nothing as long as a terrace.
+pcl::Indices shortThings(const Cloud::Ptr& cloud, const pcl::Indices& things,
+                         const AboveGroundOptions& options) {
+    if (things.empty() || options.terrace_length_m == 0.0) return things;
+    const auto part = pcl::make_shared<Cloud>(*cloud, things);
+    pcl::EuclideanClusterExtraction<pcl::PointXYZ> clusters;
+    clusters.setInputCloud(part);
+    clusters.setClusterTolerance(options.link_m);
+    clusters.setMinClusterSize(1);
+    std::vector<pcl::PointIndices> found;
+    clusters.extract(found);
+    pcl::Indices taken;
+    for (const pcl::PointIndices& cluster : found) {
+        if (extentOf(*part, cluster.indices) >= options.terrace_length_m) continue;
+        for (const pcl::index_t i : cluster.indices) taken.push_back(things[static_cast<std::size_t>(i)]);
+    }
+    return taken;
+}
+
+void mark(std::vector<GroundPoint>& points, const UsedPoints& used, const pcl::Indices& taken,
+          GroundPointState state) {
+    for (const pcl::index_t i : taken) points[used.index[static_cast<std::size_t>(i)]].state = state;
+}
+
+Result<void> check(const PointCleaningOptions& options) {
+    const StatisticalOutlierOptions& s = options.statistical;
+    if (s.use && !(s.neighbours > 0 && s.sigmas >= 0.0)) {
+        return usageError("statistical outliers need at least one neighbour and sigmas not below zero");
+    }
+    const RadiusOutlierOptions& r = options.radius;
+    if (r.use && !(r.radius_m > 0.0 && r.least_neighbours > 0)) {
+        return usageError("radius outliers need a radius above zero and at least one neighbour");
+    }
+    const AboveGroundOptions& a = options.above_ground;
+    const bool sizes =
+        a.cell_m > 0.0 && a.greatest_window_m > 0.0 && a.greatest_window_m <= 1000.0 * a.cell_m;
+    const bool heights = a.slope >= 0.0 && a.least_height_m > 0.0 && a.greatest_height_m >= a.least_height_m;
+    if (a.use && !(sizes && heights && a.link_m > 0.0 && a.terrace_length_m >= 0.0)) {
+        return usageError(
+            "sizes and heights of what stands above the ground must be above zero, the greatest "
+            "not below the least, the window not above 1000 cells");
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<std::vector<GroundPoint>> cleanGroundPoints(std::vector<GroundPoint> points,
+                                                   const PointCleaningOptions& options, Progress& progress,
+                                                   std::stop_token stop) {
+    if (auto checked = check(options); !checked) return tl::unexpected(checked.error());
+    try {
+        if (options.statistical.use && !stop.stop_requested()) {
+            progress.report(0.0, "looking for statistical outliers");
+            const UsedPoints used = usedPoints(points);
+            mark(points, used, statisticalOutliers(used.cloud, options.statistical),
+                 GroundPointState::StatisticalOutlier);
+        }
+        if (options.radius.use && !stop.stop_requested()) {
+            progress.report(0.2, "looking for isolated points");
+            const UsedPoints used = usedPoints(points);
+            mark(points, used, radiusOutliers(used.cloud, options.radius), GroundPointState::Isolated);
+        }
+        if (options.above_ground.use && !stop.stop_requested()) {
+            progress.report(0.3, "looking for what stands above the ground");
+            const UsedPoints used = usedPoints(points);
+            const pcl::Indices narrow = narrowThings(*used.cloud, options.above_ground, stop);
+            mark(points, used, shortThings(used.cloud, narrow, options.above_ground),
+                 GroundPointState::AboveGround);
+        }
+    } catch (const std::exception& failure) {
+        return systemError(fmt::format("the points cannot be cleaned: {}", failure.what()));
+    }
+    if (stop.stop_requested()) return cancelled();
+    progress.report(1.0, "points cleaned");
+    return points;
+}
+
+std::vector<GroundPoint> withoutCleaning(std::vector<GroundPoint> points) {
+    for (GroundPoint& point : points) {
+        if (point.state == GroundPointState::StatisticalOutlier ||
+            point.state == GroundPointState::Isolated || point.state == GroundPointState::AboveGround) {
+            point.state = GroundPointState::Used;
+        }
+    }
+    return points;
+}
+
+}  // namespace terrawalk

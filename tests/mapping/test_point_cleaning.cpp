@@ -1,0 +1,166 @@
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "mapping/point_cleaning.hpp"
+#include "tests/support/random_numbers.hpp"
+
+namespace terrawalk {
+namespace {
+
+using test::RandomNumbers;
+using Ground = std::function<double(double e_m, double n_m)>;
+
+constexpr double kSigma_m = 0.05;
+
+GroundPoint pointAt(double e_m, double n_m, double u_m) {
+    GroundPoint point;
+    point.enu_m = {e_m, n_m, u_m};
+    return point;
+}
+
+/// A walk in lines to the east, 3 m apart, a point every 0.2 m.
+std::vector<GroundPoint> walkOver(const Ground& ground, std::uint64_t seed) {
+    RandomNumbers random(seed);
+    std::vector<GroundPoint> points;
+    for (double n = 0.0; n <= 30.0; n += 3.0) {
+        for (double e = 0.0; e <= 30.0; e += 0.2) {
+            points.push_back(pointAt(e, n, ground(e, n) + kSigma_m * random.normal()));
+        }
+    }
+    return points;
+}
+
+double gentleSlope(double e_m, double n_m) {
+    return 0.05 * e_m + 0.1 * n_m;
+}
+/// Treads of 6 m and steps of 1 m in 0.6 m, the walk's lines at their feet, on them and close to their edges.
+double terraces(double e_m, double n_m) {
+    const double along_m = n_m + 0.5 * std::sin(e_m / 5.0) + 2.0;
+    const double tread = std::floor(along_m / 6.0);
+    return tread + std::min(1.0, (along_m - 6.0 * tread) / 0.6);
+}
+
+Result<std::vector<GroundPoint>> clean(std::vector<GroundPoint> points, const PointCleaningOptions& options) {
+    SilentProgress progress;
+    return cleanGroundPoints(std::move(points), options, progress, {});
+}
+
+std::size_t count(const std::vector<GroundPoint>& points, GroundPointState state) {
+    return static_cast<std::size_t>(std::count_if(
+        points.begin(), points.end(), [&](const GroundPoint& point) { return point.state == state; }));
+}
+
+PointCleaningOptions aboveGround() {
+    PointCleaningOptions options;
+    options.above_ground.use = true;
+    return options;
+}
+
+TEST(PointCleaning, TakesPlantedOutliersAndLittleElse) {
+    std::vector<GroundPoint> points = walkOver(gentleSlope, 1);
+    const std::size_t ground = points.size();
+    for (int i = 0; i < 20; ++i) points.push_back(pointAt(1.4 * i, 1.5 + i, 6.0 + 0.3 * i));
+    PointCleaningOptions statistical, radius;
+    statistical.statistical.use = true;
+    radius.radius.use = true;
+    for (const auto& [options, state] : {std::pair{statistical, GroundPointState::StatisticalOutlier},
+                                         std::pair{radius, GroundPointState::Isolated}}) {
+        const auto cleaned = clean(points, options);
+        ASSERT_TRUE(cleaned) << cleaned.error().message;
+        for (std::size_t i = ground; i < points.size(); ++i) EXPECT_EQ((*cleaned)[i].state, state) << i;
+        // Four sigmas of a spread that the outliers widen: next to nothing of the walk itself.
+        EXPECT_LE(count(*cleaned, state), 20 + ground / 200);
+    }
+}
+
+TEST(PointCleaning, TakesHandsAndPlantsOffSlopesAndTerraces) {
+    for (const Ground& ground : {Ground(gentleSlope), Ground(terraces)}) {
+        std::vector<GroundPoint> points = walkOver(ground, 2);
+        std::vector<bool> planted(points.size(), false);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const double e = points[i].enu_m.x(), n = points[i].enu_m.y();
+            const bool hand =
+                n == 6.0 && e > 10.0 && e < 12.0;  // two metres of walk with a hand before the laser
+            const bool bush = std::hypot(e - 21.0, n - 15.0) < 0.8;  // 0.9 m high
+            if (hand) points[i].enu_m.z() += 0.9;
+            if (bush) points[i].enu_m.z() += 0.9;
+            planted[i] = hand || bush;
+        }
+        const auto cleaned = clean(points, aboveGround());
+        ASSERT_TRUE(cleaned) << cleaned.error().message;
+        std::size_t missed = 0, wrong = 0, things = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const bool taken = (*cleaned)[i].state == GroundPointState::AboveGround;
+            things += planted[i];
+            missed += planted[i] && !taken;
+            wrong += !planted[i] && taken;
+        }
+        ASSERT_GT(things, 12U);
+        EXPECT_LE(missed, things / 10);
+        EXPECT_LE(wrong, points.size() / 100);
+    }
+}
+
+TEST(PointCleaning, LeavesTerracesWhereTheFilterAloneWouldNot) {
+    const std::vector<GroundPoint> points = walkOver(terraces, 3);
+    const auto kept = clean(points, aboveGround());
+    ASSERT_TRUE(kept);
+    EXPECT_LE(count(*kept, GroundPointState::AboveGround), points.size() / 200);
+
+    // A long bund, 1.5 m high: a terrace wall, no plant.
+    std::vector<GroundPoint> bund = walkOver(gentleSlope, 4);
+    for (GroundPoint& point : bund) point.enu_m.z() += point.enu_m.y() == 15.0 ? 1.5 : 0.0;
+    EXPECT_EQ(count(*clean(bund, aboveGround()), GroundPointState::AboveGround), 0U);
+    PointCleaningOptions bare = aboveGround();
+    bare.above_ground.greatest_window_m = 8.0;
+    bare.above_ground.terrace_length_m = 0.0;
+    EXPECT_GT(count(*clean(bund, bare), GroundPointState::AboveGround), 100U) << "as published";
+}
+
+TEST(PointCleaning, DoesNotDependOnOrderOrThreadsAndCanBeTakenBack) {
+    std::vector<GroundPoint> points = walkOver(terraces, 5);
+    for (std::size_t i = 0; i < points.size(); i += 97) points[i].enu_m.z() += 1.5;
+    points[3].state = GroundPointState::Spike;
+    PointCleaningOptions options = aboveGround();
+    options.statistical.use = options.radius.use = true;
+    const auto expected = clean(points, options);
+    ASSERT_TRUE(expected);
+    ASSERT_GT(count(*expected, GroundPointState::AboveGround) +
+                  count(*expected, GroundPointState::StatisticalOutlier),
+              5U);
+    EXPECT_EQ((*expected)[3].state, GroundPointState::Spike);
+
+    std::vector<GroundPoint> reversed(points.rbegin(), points.rend());
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    auto again = clean(reversed, options);
+    ASSERT_TRUE(again);
+    std::reverse(again->begin(), again->end());
+    const std::vector<GroundPoint> undone = withoutCleaning(*expected);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        EXPECT_EQ((*again)[i].state, (*expected)[i].state) << i;
+        EXPECT_EQ(undone[i].state, points[i].state);
+        EXPECT_EQ((*expected)[i].enu_m, points[i].enu_m);
+    }
+}
+
+TEST(PointCleaning, CopesWithNothingAndSaysWhatIsWrong) {
+    PointCleaningOptions options = aboveGround();
+    options.statistical.use = options.radius.use = true;
+    EXPECT_TRUE(clean({}, options)->empty());
+    EXPECT_EQ(clean({pointAt(0, 0, 0)}, options)->size(), 1U);
+    options.above_ground.cell_m = 0.0;
+    EXPECT_EQ(clean({}, options).error().kind, ErrorKind::Usage);
+    options = aboveGround();
+    std::stop_source stop;
+    stop.request_stop();
+    SilentProgress progress;
+    EXPECT_EQ(cleanGroundPoints(walkOver(terraces, 6), options, progress, stop.get_token()).error().kind,
+              ErrorKind::Cancelled);
+}
+
+}  // namespace
+}  // namespace terrawalk
