@@ -22,7 +22,8 @@ namespace terrawalk {
 struct SurfaceOptions {
     double thinning_cell_m = 0.5;  ///< one point stands for each cell of this size; 0: all points
     bool fixed_point_runs = true;  ///< ground points of fixed-point runs count as well
-    PointCleaningOptions cleaning;
+    /// Statistical outliers go by themselves: their measure has no scale of its own, and never did harm.
+    PointCleaningOptions cleaning{.statistical = {.use = true}, .radius = {}, .above_ground = {}};
     TinOptions tin;
     std::optional<InterpolationMethod> method =
         InterpolationMethod::Linear;  ///< nothing: by cross-validation

@@ -15,6 +15,7 @@ std::vector<std::pair<std::string, std::string>> libraryVersions() {
             {"Eigen", TERRAWALK_EIGEN_VERSION},
             {"GDAL", TERRAWALK_GDAL_VERSION},
             {"GeographicLib", TERRAWALK_GEOGRAPHICLIB_VERSION},
+            {"PCL", TERRAWALK_PCL_VERSION},
             {"PROJ", TERRAWALK_PROJ_VERSION}};
 }
 

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <map>
+#include <utility>
 
 #include "fusion/random_numbers.hpp"
 #include "fusion/simulated_terrain.hpp"
@@ -135,8 +137,31 @@ T must(Result<T> result) {
     std::exit(1);
 }
 
-void measure(SimulatedTerrain kind, const std::string& spread, const Points& points, double noise_m,
-             std::uint64_t seed, const Truth& truth) {
+/// Squared errors near risers over all seeds, by spread and noise, and the worst of elsewhere.
+struct Summary {
+    struct Sums {
+        double before = 0.0, after = 0.0;
+    };
+    std::map<std::pair<std::string, double>, Sums> near;
+    double worst_elsewhere = 0.0;
+
+    void add(const std::string& spread, double noise_m, const Errors& before, const Errors& after) {
+        const auto cells = static_cast<double>(before.near_cells);
+        near[{spread, noise_m}].before += cells * before.near * before.near;
+        near[{spread, noise_m}].after += cells * after.near * after.near;
+    }
+    void print() const {
+        fmt::print("\nTerraces, all seeds: RMSE within 1 m of a riser with edges over that without\n");
+        for (const auto& [key, sums] : near) {
+            fmt::print("{:<12}{:>5.2f}{:>8.3f}\n", key.first, key.second,
+                       std::sqrt(sums.after / sums.before));
+        }
+        fmt::print("All terrains, worst ratio elsewhere: {:.3f}\n", worst_elsewhere);
+    }
+};
+
+void measure(Summary& summary, SimulatedTerrain kind, const std::string& spread, const Points& points,
+             double noise_m, std::uint64_t seed, const Truth& truth) {
     SilentProgress progress;
     const auto start = std::chrono::steady_clock::now();
     const TerraceEdges found = must(findTerraceEdges(points, {}, {}, progress, {}));
@@ -149,6 +174,8 @@ void measure(SimulatedTerrain kind, const std::string& spread, const Points& poi
     const ElevationGrid before = must(rasterize(plain.mesh(), g, progress, {}));
     const ElevationGrid after = must(rasterize(edged.groundMesh(), g, progress, {}));
     const Errors a = errorsOf(before, after, truth, near), b = errorsOf(after, before, truth, near);
+    if (kind == SimulatedTerrain::TerracedOrchard) summary.add(spread, noise_m, a, b);
+    summary.worst_elsewhere = std::max(summary.worst_elsewhere, b.elsewhere / a.elsewhere);
     double length_m = 0.0, sigma = 0.0;
     for (const TerraceEdge& edge : found.edges) {
         length_m += edge.length_m;
@@ -174,6 +201,7 @@ int main(int argc, char** argv) {
     fmt::print("{:<17}{:<12}{:>5}{:>6}{:>7}{:>6}{:>8}{:>7} |{:>7}{:>8}{:>8}{:>7} |{:>8}{:>8}{:>7} |{:>6}\n",
                "terrain", "points", "noise", "seed", "n", "edges", "len m", "sigma", "zone m2", "near",
                "edged", "ratio", "else", "edged", "ratio", "s");
+    Summary summary;
     const std::string only = argc == 4 ? argv[3] : "";
     for (std::uint64_t seed = std::stoull(argv[1]); seed <= std::stoull(argv[2]); ++seed) {
         for (const SimulatedTerrain kind : {SimulatedTerrain::TerracedOrchard, SimulatedTerrain::Gully,
@@ -182,7 +210,7 @@ int main(int argc, char** argv) {
             for (const double noise_m : {0.02, 0.1, 0.3}) {
                 for (const double per_m2 : {0.5, 1.0, 4.0}) {
                     if (only == "walk") break;
-                    measure(kind, fmt::format("random {:g}", per_m2),
+                    measure(summary, kind, fmt::format("random {:g}", per_m2),
                             scattered(terrain, per_m2, noise_m, seed), noise_m, seed,
                             [&](double e, double n) { return terrain.height_m(e, n); });
                 }
@@ -190,9 +218,10 @@ int main(int argc, char** argv) {
                 for (const double spacing_m : {1.5, 3.0}) {
                     Truth truth;
                     const Points points = walked(kind, spacing_m, noise_m, seed, truth);
-                    measure(kind, fmt::format("walk {:g}", spacing_m), points, noise_m, seed, truth);
+                    measure(summary, kind, fmt::format("walk {:g}", spacing_m), points, noise_m, seed, truth);
                 }
             }
         }
     }
+    summary.print();
 }

@@ -232,6 +232,27 @@ TEST_F(ProjectReader, MissingFilesAreNamed) {
     EXPECT_THAT(readSurvey("/dev/zero", progress, {}).error().text(), HasSubstr("no regular file"));
 }
 
+TEST_F(ProjectReader, BreaklinesAreReadWithTheSurvey) {
+    test::writeBytes(folder_ / "walls.geojson", R"({"type": "FeatureCollection",
+"crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32649"}},
+"features": [{"type": "Feature", "properties": {"kind": "soft"}, "geometry":
+{"type": "LineString", "coordinates": [[500010, 2500015, 16], [500030, 2500015, 18]]}}]})");
+    write(replaced(kProject, "\"control\":", "\"breaklines\": \"walls.geojson\", \"control\":"));
+    const auto survey = read();
+    ASSERT_TRUE(survey) << survey.error().text();
+    EXPECT_THAT(survey->notes, IsEmpty());
+    EXPECT_EQ(survey->breakline_file, folder_ / "walls.geojson");
+    ASSERT_THAT(survey->breaklines, SizeIs(1));
+    EXPECT_EQ(survey->breaklines.front().kind, BreaklineKind::Soft);
+    EXPECT_EQ(survey->breaklines.front().vertices_m.back(), Eigen::Vector3d(500030, 2500015, 18));
+    EXPECT_THAT(survey->breakline_crs, HasSubstr("32649"));
+
+    EXPECT_THAT(errorWith("\"control\":", "\"breaklines\": \"none.gpkg\", \"control\":"),
+                HasSubstr("none.gpkg"));
+    EXPECT_THAT(errorWith("\"control\":", "\"breaklines\": \"../walls.gpkg\", \"control\":"),
+                HasSubstr("leaves the project's folder"));
+}
+
 TEST_F(ProjectReader, PathsMayNotLeaveTheFolder) {
     const auto withLog = [&](std::string_view path) {
         return errorWith("logs/S01.csv", path);
