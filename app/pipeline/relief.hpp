@@ -4,6 +4,7 @@
 
 #include "io/map_projection.hpp"
 #include "mapping/delaunay_tin.hpp"
+#include "mapping/shaded_relief.hpp"
 #include "survey/ground_point.hpp"
 #include "survey/relief_image.hpp"
 #include "survey/result.hpp"
@@ -14,5 +15,8 @@ namespace terrawalk {
 /// longer side.
 [[nodiscard]] Result<ReliefPicture> reliefPicture(const DelaunayTin& tin, const MapProjection& projection,
                                                   const std::vector<GroundPoint>& ground_points);
+
+/// Colours of heights, from the lowest to the highest.
+[[nodiscard]] std::vector<Colour> reliefRamp();
 
 }  // namespace terrawalk
