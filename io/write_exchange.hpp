@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "survey/contour.hpp"
@@ -75,6 +76,19 @@ struct MapPoints {
 [[nodiscard]] Result<void> writeContours(const std::vector<Contour>& contours, double label_height,
                                          const ExchangeDescription& description,
                                          const std::filesystem::path& file, std::stop_token stop = {});
+
+/// A piece of ground and what is known of it.
+struct MapRegion {
+    std::int32_t label = 0;                              ///< of its cells, > 0
+    std::vector<std::pair<std::string, double>> values;  ///< fields; of the same names for all regions
+};
+/// GeoPackage, layer regions: one multipolygon along the cells' sides for each region, with its label as
+/// `rank` and its values. An empty list makes an empty layer.
+/// @param labels  for each cell of the geometry the region's label, 0 for none
+[[nodiscard]] Result<void> writeRegions(const GridGeometry& geometry, const std::vector<std::int32_t>& labels,
+                                        const std::vector<MapRegion>& regions,
+                                        const ExchangeDescription& description,
+                                        const std::filesystem::path& file, std::stop_token stop = {});
 
 /// ESRI ASCII grid, nodata -9999, and the CRS beside it as .prj. Heights as short as they read back exactly.
 [[nodiscard]] Result<void> writeAsciiGrid(const ElevationGrid& grid, const std::string& crs_wkt2,

@@ -1,13 +1,16 @@
 #include <cpl_conv.h>
 #include <fmt/format.h>
+#include <gdal_alg.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <functional>
+#include <map>
 
 #include "io/gdal_support.hpp"
 #include "io/replacing_file.hpp"
@@ -147,7 +150,66 @@ Result<void> writeContourDrawing(const std::vector<Contour>& contours, double la
     return {};
 }
 
+/// Polygons of each label along the sides of its cells.
+Result<std::map<std::int32_t, OGRMultiPolygon>> polygonsOf(const GridGeometry& g,
+                                                           const std::vector<std::int32_t>& labels,
+                                                           const fs::path& file) {
+    const auto columns = static_cast<int>(g.columns);
+    const auto rows = static_cast<int>(g.rows);
+    GDALDriverManager& drivers = *GetGDALDriverManager();
+    const GdalDataset raster(
+        drivers.GetDriverByName("MEM")->Create("", columns, rows, 1, GDT_Int32, nullptr));
+    const GdalDataset memory(drivers.GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
+    if (!raster || !memory) return systemError("cannot make polygons", file);
+    std::array<double, 6> transform{g.west_m, g.cell_m, 0.0, g.north_m, 0.0, -g.cell_m};
+    GDALRasterBand& band = *raster->GetRasterBand(1);
+    bool ok = raster->SetGeoTransform(transform.data()) == CE_None &&
+              band.RasterIO(GF_Write, 0, 0, columns, rows, const_cast<std::int32_t*>(labels.data()), columns,
+                            rows, GDT_Int32, 0, 0, nullptr) == CE_None;
+    const auto layer = addLayer(*memory, "polygons", nullptr, wkbPolygon, {{"label", OFTInteger}}, file);
+    if (!layer) return tl::unexpected(layer.error());
+    // The band is its own mask: label 0 is no ground.
+    ok = ok &&
+         GDALPolygonize(&band, &band, OGRLayer::ToHandle(*layer), 0, nullptr, nullptr, nullptr) == CE_None;
+    if (!ok) return systemError("cannot make polygons", file);
+    std::map<std::int32_t, OGRMultiPolygon> found;
+    for (const auto& feature : **layer)
+        found[feature->GetFieldAsInteger(0)].addGeometry(feature->GetGeometryRef());
+    return found;
+}
+
 }  // namespace
+
+Result<void> writeRegions(const GridGeometry& geometry, const std::vector<std::int32_t>& labels,
+                          const std::vector<MapRegion>& regions, const ExchangeDescription& description,
+                          const fs::path& file, std::stop_token stop) {
+    auto crs = crsOf(description.crs_wkt2, file);
+    if (!crs) return tl::unexpected(crs.error());
+    return writeVectorFile("GPKG", file, [&](GDALDataset& dataset) -> Result<void> {
+        const auto polygons = polygonsOf(geometry, labels, file);
+        if (!polygons) return tl::unexpected(polygons.error());
+        if (stop.stop_requested()) return cancelled();
+        std::vector<Field> fields{{"rank", OFTInteger}};
+        if (!regions.empty()) {
+            for (const auto& [name, value] : regions.front().values)
+                fields.push_back({name.c_str(), OFTReal});
+        }
+        const auto layer = addLayer(dataset, "regions", &*crs, wkbMultiPolygon, fields, file);
+        if (!layer) return tl::unexpected(layer.error());
+        for (const MapRegion& region : regions) {
+            OGRFeature feature((*layer)->GetLayerDefn());
+            feature.SetField(0, region.label);
+            for (std::size_t i = 0; i < region.values.size(); ++i) {
+                feature.SetField(static_cast<int>(i) + 1, region.values[i].second);
+            }
+            const auto found = polygons->find(region.label);
+            if (found == polygons->end()) return badData("a region without a cell", file);
+            feature.SetGeometry(&found->second);
+            if (auto added = add(**layer, feature, file); !added) return added;
+        }
+        return {};
+    });
+}
 
 Result<void> writePointsGeoPackage(const MapPoints& points, const ExchangeDescription& description,
                                    const fs::path& file, std::stop_token stop) {

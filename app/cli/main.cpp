@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/analysis_options.hpp"
 #include "app/cli/export_options.hpp"
 #include "app/cli/interrupt.hpp"
 #include "app/cli/simulate_options.hpp"
@@ -444,6 +445,21 @@ int run(int argc, char** argv) {
     VolumeRequest volume;
     jobs.add("volume", "Tell the volume between a DEM and a plane or another DEM, with its error",
              addVolumeOptions, volume, measureVolume);
+    ContourRequest contours;
+    jobs.add("contour", "Draw smooth contours that never cross", addContourOptions, contours, makeContours);
+    ProfileRequest profile;
+    jobs.add("profile", "Tell the heights along a line", addProfileOptions, profile, makeProfile);
+    DifferenceRequest difference;
+    jobs.add("diff", "Tell what changed between two surveys, and what of it is beyond error",
+             addDifferenceOptions, difference, compareDems);
+    DeriveRequest derived;
+    jobs.add("derive", "Make hillshade, slope, aspect, curvature, roughness, drainage of a DEM",
+             addDeriveOptions, derived, deriveRasters);
+    ValidateRequest validated_dem;
+    jobs.add("validate", "Measure a DEM's errors at marks", addValidateOptions, validated_dem, validateDem);
+    WalkAdviceRequest advice;
+    jobs.add("walk-again", "Find where another walk would help most", addWalkAdviceOptions, advice,
+             adviseWalk);
     ExportRequest exported;
     jobs.add("export", "Write results of a processed survey for other programs", addExportOptions, exported,
              exportResults);
