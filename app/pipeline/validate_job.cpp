@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -93,6 +94,11 @@ Result<ValidateOutcome> validateDem(const ValidateRequest& request, Progress& pr
     report.residuals = std::move(compared.found.residuals);
     report.missing_residuals = std::move(compared.found.missing);
     outcome.report = withAccuracy(std::move(report));
+    if (std::any_of(outcome.report.residuals.begin(), outcome.report.residuals.end(),
+                    [](const Residual& r) { return r.role == MarkRole::Control; })) {
+        outcome.report.limitations.emplace_back(
+            "A DEM may have been tied to the control marks; the check marks alone speak for it.");
+    }
     if (stop.stop_requested()) return cancelled();
     if (!request.output.empty()) {
         fs::path json = request.output;
