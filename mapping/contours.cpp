@@ -318,6 +318,26 @@ double rmsDifference(const ElevationGrid& a, const ElevationGrid& b) {
 
 }  // namespace
 
+double contourMemory_bytes(const ElevationGrid& heights, const ContourOptions& options) {
+    constexpr double kGrids = 16.0;  // smoothed heights and the two halves of the smoothing
+    // A line goes through some three triangles of each of the four or so fine quads on its way over a cell;
+    // its pieces exist twice while they are gathered, and then as vertices.
+    constexpr double kPiecesPerCell = 3.0 * static_cast<double>(kFiner);
+    constexpr double kBytesPerPiece = 2.0 * sizeof(Segment) + sizeof(Eigen::Vector2d);
+    double crossings = 0.0;
+    const GridGeometry& g = heights.geometry;
+    for (std::size_t row = 0; row + 1 < g.rows; ++row) {
+        for (std::size_t column = 0; column + 1 < g.columns; ++column) {
+            const auto [low, high] =
+                std::minmax({heights.at(row, column), heights.at(row, column + 1),
+                             heights.at(row + 1, column), heights.at(row + 1, column + 1)});
+            // Comparisons with NaN are false: such a cell has no line.
+            if (high > low) crossings += (double{high} - double{low}) / options.interval;
+        }
+    }
+    return kGrids * static_cast<double>(g.size()) + kPiecesPerCell * kBytesPerPiece * crossings;
+}
+
 ElevationGrid gaussianSmoothed(const ElevationGrid& heights, double sigma_cells) {
     if (!(sigma_cells > 0.0)) return heights;
     const GridGeometry& g = heights.geometry;

@@ -33,6 +33,10 @@ struct ContourSet {
 [[nodiscard]] Result<ContourSet> contourLines(const ElevationGrid& heights, const ContourOptions& options,
                                               Progress& progress, std::stop_token stop);
 
+/// About what contourLines() takes: smoothed heights and the pieces of lines, which grow with relief over
+/// interval. Pure.
+[[nodiscard]] double contourMemory_bytes(const ElevationGrid& heights, const ContourOptions& options);
+
 /// The heights through a Gaussian of that standard deviation, normalised over the cells with a height; those
 /// without keep none. Same bytes with any number of threads.
 [[nodiscard]] ElevationGrid gaussianSmoothed(const ElevationGrid& heights, double sigma_cells);

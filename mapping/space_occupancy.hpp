@@ -30,10 +30,13 @@ enum class Space { Unknown, Free, Occupied };
 
 /// What is known of the space above ground. Heights above the ground [m].
 struct SpaceAboveGround {
-    /// How far up space is known to be free without a break, from the ground layer on; 0 where nothing is
-    /// known of the space right above it.
+    /// How far up space is known to be free without a break, from the ground layer on, in the best of the
+    /// cell's voxel columns but not above its lowest obstacle; 0 where nothing is known of the space right
+    /// above the ground layer.
     ElevationGrid free_height;
-    /// Bottom of the lowest occupied voxel above the ground layer; NaN where none is known.
+    /// Bottom of the lowest occupied voxel in any of the cell's voxel columns that stands above the ground
+    /// layer of the cell and of its eight neighbours, so that no riser counts as obstacle over its own foot;
+    /// NaN where none is known.
     ElevationGrid obstacle_height;
 };
 struct AboveGroundOptions {
@@ -64,8 +67,8 @@ class SpaceOccupancy {
     [[nodiscard]] Result<std::string> binaryTree() const;
     [[nodiscard]] Result<std::string> fullTree() const;
 
-    /// For each cell of the ground with a height, along the vertical through its centre. Runs on all of TBB's
-    /// threads; the same bytes with any number of them. Errors: Cancelled.
+    /// For each cell of the ground with a height, over its whole area. Runs on all of TBB's threads; the same
+    /// bytes with any number of them. Errors: Cancelled.
     [[nodiscard]] Result<SpaceAboveGround> aboveGround(const ElevationGrid& ground,
                                                        const AboveGroundOptions& options, Progress& progress,
                                                        std::stop_token stop) const;

@@ -463,6 +463,9 @@ int run(int argc, char** argv) {
     ExportRequest exported;
     jobs.add("export", "Write results of a processed survey for other programs", addExportOptions, exported,
              exportResults);
+    OccupancyRequest occupancy;
+    jobs.add("occupancy", "Map the space above ground that the laser knows to be free or taken",
+             addOccupancyOptions, occupancy, mapOccupancy);
 
     CLI::App* config_command = app.add_subcommand("config", "Show and check parameters");
     config_command->require_subcommand(1);

@@ -12,8 +12,7 @@ namespace terrawalk {
 
 namespace {
 
-constexpr double kBytesPerCell = 16.0;  // smoothed heights and the two halves of the smoothing
-constexpr double kLabelCells = 3.0;     // height of a label in DXF
+constexpr double kLabelCells = 3.0;  // height of a label in DXF
 
 }  // namespace
 
@@ -21,8 +20,11 @@ Result<ContourOutcome> makeContours(const ContourRequest& request, Progress& pro
     progress.report(0.0, "reading");
     const auto dem = readDem(request.dem, stop);
     if (!dem) return tl::unexpected(dem.error());
-    if (auto fits = checkCellMemory(dem->grid.geometry.size(), kBytesPerCell, "contouring"); !fits) {
-        return tl::unexpected(fits.error());
+    if (request.options.interval > 0.0) {
+        const auto fits =
+            checkMemoryFor("contours of these cells", contourMemory_bytes(dem->grid, request.options),
+                           "choose a larger interval, or cut out a part");
+        if (!fits) return tl::unexpected(fits.error());
     }
     PartialProgress cutting(progress, 0.1, 0.8);
     const auto set = contourLines(dem->grid, request.options, cutting, stop);

@@ -76,7 +76,7 @@ Result<DeriveOutcome> deriveRasters(const DeriveRequest& request, Progress& prog
     const auto dem = readDem(request.dem, stop);
     if (!dem) return tl::unexpected(dem.error());
     const double per_cell = kBytesPerCell + (water ? kDrainageBytesPerCell : 0.0);
-    if (auto fits = checkCellMemory(dem->grid.geometry.size(), per_cell, "deriving rasters"); !fits) {
+    if (auto fits = checkCellMemory(dem->grid.geometry.size(), per_cell, "deriving rasters of"); !fits) {
         return tl::unexpected(fits.error());
     }
     if (!request.output.empty()) {

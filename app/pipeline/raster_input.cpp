@@ -70,13 +70,18 @@ DemDescription describeDerived(const DemFile& dem, const std::string& title, con
             .unit = unit};
 }
 
-Result<void> checkCellMemory(std::size_t cells, double bytes_per_cell, std::string_view work) {
-    const double need = bytes_per_cell * static_cast<double>(cells);
+Result<void> checkMemoryFor(std::string_view work, double need_bytes, std::string_view cure) {
     const auto available = availableMemory_bytes();
-    if (!available || need <= kShareOfMemory * *available) return {};
-    return systemError(fmt::format("{} over {} cells needs about {} of memory, and {} can be had", work,
-                                   cells, memoryText(need), memoryText(*available)),
-                       {}, "cut out a part, e.g. with gdal_translate -projwin, or take larger cells");
+    if (!available || need_bytes <= kShareOfMemory * *available) return {};
+    return systemError(fmt::format("{}: about {} of memory are needed, and {} can be had", work,
+                                   memoryText(need_bytes), memoryText(*available)),
+                       {}, std::string(cure));
+}
+
+Result<void> checkCellMemory(std::size_t cells, double bytes_per_cell, std::string_view work) {
+    return checkMemoryFor(fmt::format("{} {} cells", work, cells),
+                          bytes_per_cell * static_cast<double>(cells),
+                          "cut out a part, e.g. with gdal_translate -projwin, or take larger cells");
 }
 
 }  // namespace terrawalk

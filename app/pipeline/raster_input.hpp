@@ -35,7 +35,9 @@ struct SigmaSource {
                                              const std::string& quantity, const std::string& unit,
                                              const std::string& method);
 
-/// Error System when the work would need more than nine tenths of the memory that can be had.
+/// Error System when `work` would need more than nine tenths of the memory that can be had.
+[[nodiscard]] Result<void> checkMemoryFor(std::string_view work, double need_bytes, std::string_view cure);
+/// The same for work on the cells of a raster.
 [[nodiscard]] Result<void> checkCellMemory(std::size_t cells, double bytes_per_cell, std::string_view work);
 
 }  // namespace terrawalk

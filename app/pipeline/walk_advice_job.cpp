@@ -30,7 +30,7 @@ Result<WalkAdviceOutcome> adviseWalk(const WalkAdviceRequest& request, Progress&
     const auto raster = readDem(request.uncertainty, stop);
     if (!raster) return tl::unexpected(raster.error());
     const GridGeometry& g = raster->grid.geometry;
-    if (auto fits = checkCellMemory(g.size(), kBytesPerCell, "looking for weak ground"); !fits) {
+    if (auto fits = checkCellMemory(g.size(), kBytesPerCell, "looking for weak ground in"); !fits) {
         return tl::unexpected(fits.error());
     }
     std::vector<double> known;
