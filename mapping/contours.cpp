@@ -320,9 +320,9 @@ double rmsDifference(const ElevationGrid& a, const ElevationGrid& b) {
 
 double contourMemory_bytes(const ElevationGrid& heights, const ContourOptions& options) {
     constexpr double kGrids = 16.0;  // smoothed heights and the two halves of the smoothing
-    // A line cuts some six of the triangles within a cell (3.5 were measured on a smoothed DEM); its pieces
+    // A line cuts some ten of the triangles within a cell (measured without smoothing; 4 with it); its pieces
     // exist twice while they are gathered, and then as vertices.
-    constexpr double kPiecesPerCell = 6.0;
+    constexpr double kPiecesPerCell = 10.0;
     constexpr double kBytesPerPiece = 2.0 * sizeof(Segment) + sizeof(Eigen::Vector2d);
     double crossings = 0.0;
     const GridGeometry& g = heights.geometry;
