@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
@@ -217,7 +218,7 @@ class Chainer {
   public:
     Chainer(std::vector<Segment> segments, const GridGeometry& geometry, const ContourOptions& options)
         : segments_(std::move(segments)), geometry_(geometry), options_(options) {
-        std::sort(segments_.begin(), segments_.end(), startsBefore);
+        tbb::parallel_sort(segments_, startsBefore);  // no two are alike, so that the order is one
         taken_.assign(segments_.size(), false);
         has_before_.assign(segments_.size(), false);
         for (const Segment& segment : segments_) {
@@ -226,10 +227,10 @@ class Chainer {
         }
     }
 
-    std::vector<Contour> chain() {
+    Result<std::vector<Contour>> chain(const std::stop_token& stop) {
         std::vector<Contour> lines;
         const auto takeAll = [&](bool rings) {
-            for (std::size_t i = 0; i < segments_.size(); ++i) {
+            for (std::size_t i = 0; i < segments_.size() && !stop.stop_requested(); ++i) {
                 if (taken_[i] || (!rings && has_before_[i])) continue;
                 Contour line = follow(i);
                 if (line.vertices.size() >= 2) lines.push_back(std::move(line));
@@ -237,6 +238,7 @@ class Chainer {
         };
         takeAll(false);
         takeAll(true);
+        if (stop.stop_requested()) return cancelled();
         std::stable_sort(lines.begin(), lines.end(),
                          [](const Contour& a, const Contour& b) { return a.level < b.level; });
         return lines;
@@ -338,7 +340,8 @@ double contourMemory_bytes(const ElevationGrid& heights, const ContourOptions& o
     return kGrids * static_cast<double>(g.size()) + kPiecesPerCell * kBytesPerPiece * crossings;
 }
 
-ElevationGrid gaussianSmoothed(const ElevationGrid& heights, double sigma_cells) {
+Result<ElevationGrid> gaussianSmoothed(const ElevationGrid& heights, double sigma_cells,
+                                       std::stop_token stop) {
     if (!(sigma_cells > 0.0)) return heights;
     const GridGeometry& g = heights.geometry;
     const auto reach = static_cast<std::ptrdiff_t>(std::ceil(3.0 * sigma_cells));
@@ -350,6 +353,7 @@ ElevationGrid gaussianSmoothed(const ElevationGrid& heights, double sigma_cells)
     // Weight times height along rows, and the weight itself; then the same along columns.
     std::vector<float> sums(g.size(), 0.0F), parts(g.size(), 0.0F);
     tbb::parallel_for(std::size_t{0}, g.rows, [&](std::size_t row) {
+        if (stop.stop_requested()) return;
         const auto columns = static_cast<std::ptrdiff_t>(g.columns);
         for (std::ptrdiff_t c = 0; c < columns; ++c) {
             double sum = 0.0, part = 0.0;
@@ -368,6 +372,7 @@ ElevationGrid gaussianSmoothed(const ElevationGrid& heights, double sigma_cells)
     });
     ElevationGrid smooth{g, std::vector<float>(g.size(), kNoHeight)};
     tbb::parallel_for(std::size_t{0}, g.rows, [&](std::size_t row) {
+        if (stop.stop_requested()) return;
         const auto r = static_cast<std::ptrdiff_t>(row);
         const auto rows = static_cast<std::ptrdiff_t>(g.rows);
         for (std::size_t column = 0; column < g.columns; ++column) {
@@ -383,6 +388,7 @@ ElevationGrid gaussianSmoothed(const ElevationGrid& heights, double sigma_cells)
             smooth.heights_m[row * g.columns + column] = static_cast<float>(sum / part);
         }
     });
+    if (stop.stop_requested()) return cancelled();
     return smooth;
 }
 
@@ -393,7 +399,9 @@ Result<ContourSet> contourLines(const ElevationGrid& heights, const ContourOptio
     if (g.rows < 2 || g.columns < 2) return ContourSet{};
     try {
         progress.report(0.0, "smoothing");
-        const ElevationGrid smooth = gaussianSmoothed(heights, options.smoothing_cells);
+        const auto smoothed = gaussianSmoothed(heights, options.smoothing_cells, stop);
+        if (!smoothed) return tl::unexpected(smoothed.error());
+        const ElevationGrid& smooth = *smoothed;
         std::vector<std::vector<Segment>> by_row(g.rows - 1);
         std::atomic<std::size_t> done{0};
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, g.rows - 1, kRowsAtOnce),
@@ -414,10 +422,10 @@ Result<ContourSet> contourLines(const ElevationGrid& heights, const ContourOptio
             std::vector<Segment>().swap(row);
         }
         progress.report(0.7, "joining contours");
-        ContourSet set{Chainer(std::move(segments), g, options).chain(), rmsDifference(heights, smooth)};
-        if (stop.stop_requested()) return cancelled();
+        auto lines = Chainer(std::move(segments), g, options).chain(stop);
+        if (!lines) return tl::unexpected(lines.error());
         progress.report(1.0, "contours");
-        return set;
+        return ContourSet{std::move(*lines), rmsDifference(heights, smooth)};
     } catch (const std::bad_alloc&) {
         return systemError("not enough memory for so many contours", {},
                            "choose a larger interval or larger cells");

@@ -38,7 +38,8 @@ struct ContourSet {
 [[nodiscard]] double contourMemory_bytes(const ElevationGrid& heights, const ContourOptions& options);
 
 /// The heights through a Gaussian of that standard deviation, normalised over the cells with a height; those
-/// without keep none. Same bytes with any number of threads.
-[[nodiscard]] ElevationGrid gaussianSmoothed(const ElevationGrid& heights, double sigma_cells);
+/// without keep none. Same bytes with any number of threads. Errors: Cancelled.
+[[nodiscard]] Result<ElevationGrid> gaussianSmoothed(const ElevationGrid& heights, double sigma_cells,
+                                                     std::stop_token stop = {});
 
 }  // namespace terrawalk

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -47,9 +46,14 @@ class Flood {
     }
     [[nodiscard]] std::size_t size() const { return heights_.heights_m.size(); }
 
-    /// Heights raised so that from each cell a way leads down to the edge.
-    Result<std::vector<double>> fill(Progress& progress, const std::stop_token& stop) {
-        std::vector<double> filled(heights_.heights_m.begin(), heights_.heights_m.end());
+    struct Filled {
+        std::vector<double> heights;      ///< raised so that from each cell a way leads down to the edge
+        std::vector<std::size_t> upward;  ///< cells with a height, none before one that lies lower
+    };
+    Result<Filled> fill(Progress& progress, const std::stop_token& stop) {
+        Filled result{{heights_.heights_m.begin(), heights_.heights_m.end()}, {}};
+        std::vector<double>& filled = result.heights;
+        result.upward.reserve(size());
         std::vector<bool> seen(size(), false);
         using Entry = std::pair<double, std::size_t>;
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
@@ -75,6 +79,7 @@ class Flood {
                 cell = open.top().second;
                 open.pop();
             }
+            result.upward.push_back(cell);
             const double least = std::nextafter(filled[cell], std::numeric_limits<double>::infinity());
             for (const Step& step : kNeighbours) {
                 const std::size_t other = neighbour(cell, step);
@@ -88,20 +93,7 @@ class Flood {
                 }
             }
         }
-        return filled;
-    }
-
-    /// Cells from the highest to the lowest, those without a height left out.
-    [[nodiscard]] std::vector<std::size_t> downhill(const std::vector<double>& filled) const {
-        std::vector<std::size_t> order;
-        order.reserve(size());
-        for (std::size_t cell = 0; cell < size(); ++cell) {
-            if (!std::isnan(filled[cell])) order.push_back(cell);
-        }
-        std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-            return filled[a] != filled[b] ? filled[a] > filled[b] : a < b;
-        });
-        return order;
+        return result;
     }
 
     /// Where the cell's water goes; the cell count where it leaves the DEM.
@@ -134,26 +126,26 @@ class Flood {
 
 Result<Drainage> drainageOf(const ElevationGrid& heights, Progress& progress, std::stop_token stop) {
     Flood flood(heights);
-    PartialProgress filling(progress, 0.0, 0.6);
+    PartialProgress filling(progress, 0.0, 0.7);
     const auto filled = flood.fill(filling, stop);
     if (!filled) return tl::unexpected(filled.error());
-    progress.report(0.6, "sorting cells");
-    const std::vector<std::size_t> order = flood.downhill(*filled);
     const double cell_area = heights.geometry.cell_m * heights.geometry.cell_m;
     std::vector<double> area(flood.size(), cell_area);
-    for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::vector<std::size_t>& upward = filled->upward;
+    for (std::size_t i = upward.size(); i-- > 0;) {
         if (i % kCellsBetweenStops == 0) {
             if (stop.stop_requested()) return cancelled();
-            progress.report(0.8 + 0.2 * static_cast<double>(i) / static_cast<double>(order.size()),
+            progress.report(1.0 - 0.3 * static_cast<double>(i) / static_cast<double>(upward.size()),
                             "following the water");
         }
-        const std::size_t to = flood.receiver(order[i], *filled);
-        if (to != flood.size()) area[to] += area[order[i]];
+        const std::size_t to = flood.receiver(upward[i], filled->heights);
+        if (to != flood.size()) area[to] += area[upward[i]];
     }
     Drainage drainage{heights, heights};
-    for (const std::size_t cell : order) {
+    for (const std::size_t cell : upward) {
         drainage.accumulation.heights_m[cell] = static_cast<float>(area[cell]);
-        drainage.wet_depth.heights_m[cell] = static_cast<float>((*filled)[cell]) - heights.heights_m[cell];
+        drainage.wet_depth.heights_m[cell] =
+            static_cast<float>(filled->heights[cell]) - heights.heights_m[cell];
     }
     return drainage;
 }

@@ -193,15 +193,15 @@ TEST(Contours, RefuseWhatMakesNoSense) {
 
 TEST(GaussianSmoothed, KeepsPlanesInsideAndGapsAsTheyAre) {
     ElevationGrid grid = gridOf(40, 30, 1, 0, 30, [](double x, double y) { return 0.5 * x - 0.25 * y; });
-    const ElevationGrid smooth = gaussianSmoothed(grid, 1.5);
+    const ElevationGrid smooth = *gaussianSmoothed(grid, 1.5);
     for (std::size_t row = 5; row < 25; ++row) {
         for (std::size_t column = 5; column < 35; ++column) {
             EXPECT_NEAR(smooth.at(row, column), grid.at(row, column), 1e-5);
         }
     }
     grid.heights_m[7] = kNoHeight;
-    EXPECT_TRUE(std::isnan(gaussianSmoothed(grid, 1.5).heights_m[7]));
-    EXPECT_FALSE(std::isnan(gaussianSmoothed(grid, 1.5).heights_m[8]));
+    EXPECT_TRUE(std::isnan(gaussianSmoothed(grid, 1.5)->heights_m[7]));
+    EXPECT_FALSE(std::isnan(gaussianSmoothed(grid, 1.5)->heights_m[8]));
 }
 
 }  // namespace

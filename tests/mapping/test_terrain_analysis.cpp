@@ -272,6 +272,19 @@ TEST(Drainage, WaterOfAFlatLeavesIt) {
     EXPECT_DOUBLE_EQ(out, 225.0);
 }
 
+TEST(TerrainAnalysis, StopsWhenAskedTo) {
+    const ElevationGrid grid = gridOf(40, 40, 1.0, [](double x, double y) { return x * y; });
+    SilentProgress silent;
+    std::stop_source stop;
+    stop.request_stop();
+    const auto slope = derivativeOf(grid, Derivative::Slope, {}, silent, stop.get_token());
+    ASSERT_FALSE(slope);
+    EXPECT_EQ(slope.error().kind, ErrorKind::Cancelled);
+    const auto water = drainageOf(grid, silent, stop.get_token());
+    ASSERT_FALSE(water);
+    EXPECT_EQ(water.error().kind, ErrorKind::Cancelled);
+}
+
 TEST(DemDifference, MarksChangeBeyondItsSigmaAlone) {
     const GridGeometry geometry{0.0, 2.0, 1.0, 3, 2};
     const ElevationGrid later{geometry, {1.0F, 1.3F, 0.6F, 1.1F, kNoHeight, 1.5F}};
