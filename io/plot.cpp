@@ -34,6 +34,7 @@ text { fill: #1c2126; }
 .median { stroke: #1c2126; stroke-width: 2.5; }
 .outlier { fill: none; stroke-width: 1.2; }
 .point { stroke: none; fill-opacity: 0.85; }
+.ribbon { stroke: none; fill-opacity: 0.25; }
 .s0 { stroke: #0072b2; } .s1 { stroke: #d55e00; } .s2 { stroke: #009e73; } .s3 { stroke: #cc79a7; }
 .s4 { stroke: #b58900; } .s5 { stroke: #56b4e9; } .s6 { stroke: #59636e; } .s7 { stroke: #7b3294; }
 .f0 { fill: #0072b2; } .f1 { fill: #d55e00; } .f2 { fill: #009e73; } .f3 { fill: #cc79a7; }
@@ -213,6 +214,9 @@ PanelFrame panelFrame(const PlotPanel& panel, double left, double top, double ri
             x.include(px);
             y.include(py);
         }
+        for (const double upper : series.upper) {
+            if (shows(panel.y, upper)) y.include(upper);
+        }
     }
     bool bars = false;
     for (const PlotSample& sample : panel.samples) {
@@ -317,10 +321,37 @@ void drawCurve(Svg& svg, const PlotPanel& panel, const PlotSeries& series, const
     flush();
 }
 
+/// A strip between two edges, in pieces where values are missing.
+void drawRibbon(Svg& svg, const PlotPanel& panel, const PlotSeries& series, const PanelFrame& f, int colour) {
+    std::vector<Pixel> lower, upper;
+    const auto flush = [&] {
+        if (lower.size() >= 2) {
+            lower.insert(lower.end(), upper.rbegin(), upper.rend());
+            svg.polygon(lower, fmt::format("ribbon f{}", colour), series.name);
+        }
+        lower.clear();
+        upper.clear();
+    };
+    for (std::size_t i = 0; i < std::min(series.points.size(), series.upper.size()); ++i) {
+        const auto& [x, low] = series.points[i];
+        if (!shows(panel.x, x) || !shows(panel.y, low) || !shows(panel.y, series.upper[i])) {
+            flush();
+            continue;
+        }
+        lower.emplace_back(f.x.at(x), f.y.at(low));
+        upper.emplace_back(f.x.at(x), f.y.at(series.upper[i]));
+    }
+    flush();
+}
+
 void drawSeries(Svg& svg, const PlotPanel& panel, const PanelFrame& f) {
     for (std::size_t i = 0; i < panel.series.size(); ++i) {
         const PlotSeries& series = panel.series[i];
         const int colour = (series.colour >= 0 ? series.colour : static_cast<int>(i)) % kColours;
+        if (series.look == SeriesLook::Ribbon) {
+            drawRibbon(svg, panel, series, f, colour);
+            continue;
+        }
         if (series.look != SeriesLook::Points) {
             drawCurve(svg, panel, series, f, colour);
             continue;
@@ -420,6 +451,8 @@ double drawKey(Svg* svg, const std::vector<KeyEntry>& entries, double left, doub
         if (svg != nullptr) {
             if (entry.reference) {
                 svg->line(x, row, x + 20, row, "reference");
+            } else if (entry.look == SeriesLook::Ribbon) {
+                svg->rectangle(x, row - 5, 20, 10, fmt::format("ribbon f{}", entry.colour));
             } else if (entry.look == SeriesLook::Points) {
                 svg->circle(x + 10, row, 4, fmt::format("point f{}", entry.colour));
             } else {

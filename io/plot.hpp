@@ -15,14 +15,15 @@ struct PlotAxis {
     std::optional<std::pair<double, double>> range;
 };
 
-enum class SeriesLook { Line, Dashed, Points };
+enum class SeriesLook { Line, Dashed, Points, Ribbon };
 
 /// A named curve or cloud of points.
 struct PlotSeries {
     std::string name;  ///< empty: not in the key
     std::vector<std::pair<double, double>> points;
     SeriesLook look = SeriesLook::Line;
-    int colour = -1;  ///< 0..7; -1: by the place among the panel's series
+    int colour = -1;                 ///< 0..7; -1: by the place among the panel's series
+    std::vector<double> upper = {};  ///< of a ribbon: its upper edge at each point, which is on the lower one
 };
 
 /// A named sample, drawn as a box (quartiles, median, whiskers to the last value within 1.5 quartile

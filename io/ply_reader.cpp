@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "io/point_readers.hpp"
+#include "io/read_mesh.hpp"
 #include "io/text_input.hpp"
 
 namespace terrawalk {
@@ -122,8 +123,41 @@ class PlyReader {
         return std::move(points_);
     }
 
+    /// To be called after read().
+    Result<std::vector<std::array<std::uint32_t, 3>>> readTriangles() {
+        if (!faces_follow_ || !index_type_ || format_ == Format::Text) {
+            return bad("there are no binary faces right after the vertices");
+        }
+        std::vector<std::array<std::uint32_t, 3>> triangles;
+        triangles.reserve(std::min(face_count_, bytes_.size()));
+        for (std::size_t i = 0; i < face_count_; ++i) {
+            if (nextNumber(*length_type_) != 3.0) return bad(fmt::format("face {} is no triangle", i + 1));
+            std::array<std::uint32_t, 3> corners{};
+            for (std::uint32_t& corner : corners) {
+                const double index = nextNumber(*index_type_).value_or(-1.0);
+                if (!(index >= 0.0) || !(index < static_cast<double>(count_))) {
+                    return bad(fmt::format("face {} names no vertex", i + 1));
+                }
+                corner = static_cast<std::uint32_t>(index);
+            }
+            triangles.push_back(corners);
+        }
+        return triangles;
+    }
+
   private:
     tl::unexpected<Error> bad(std::string message) const { return badData(std::move(message), file_, line_); }
+
+    /// The next binary number; nothing at the end of the file.
+    std::optional<double> nextNumber(Type type) {
+        if (bytes_.size() - at_ < bytesOf(type)) return std::nullopt;
+        const double value = numberAt(bytes_.data() + at_, type, swapped());
+        at_ += bytesOf(type);
+        return value;
+    }
+    [[nodiscard]] bool swapped() const {
+        return (format_ == Format::BigEndian) == (std::endian::native == std::endian::little);
+    }
 
     std::optional<std::string_view> nextLine() {
         if (at_ >= bytes_.size()) return std::nullopt;
@@ -150,6 +184,8 @@ class PlyReader {
         if (nextLine() != "ply") return bad("this is no PLY file");
         bool in_vertices = false;
         bool other_before = false;
+        bool in_faces = false;
+        bool between = false;
         for (;;) {
             const auto line = nextLine();
             if (!line) return bad("the header does not end");
@@ -173,6 +209,17 @@ class PlyReader {
                 if (!count || *count < 0.0 || *count > 1e12) return bad("an element without a count");
                 if (in_vertices) count_ = static_cast<std::size_t>(*count);
                 if (!in_vertices && properties_.empty() && *count > 0.0) other_before = true;
+                in_faces = word[1] == "face" && !faces_follow_;
+                if (in_faces) {
+                    faces_follow_ = count_ > 0 && !between;
+                    face_count_ = static_cast<std::size_t>(*count);
+                }
+                between = between || (!in_vertices && !in_faces);
+            } else if (word[0] == "property" && in_faces) {
+                if (word.size() != 5 || word[1] != "list" || index_type_) return bad("faces of unknown form");
+                length_type_ = typeOf(word[2]);
+                index_type_ = typeOf(word[3]);
+                if (!length_type_ || !index_type_) return bad("faces of unknown form");
             } else if (word[0] == "property" && in_vertices) {
                 const auto type = word.size() == 3 ? typeOf(word[1]) : std::nullopt;
                 if (!type) return bad("vertices with lists or types that are not known");
@@ -227,11 +274,10 @@ class PlyReader {
         if (bytes_.size() - at_ < record_bytes_) {
             return bad(fmt::format("the file ends after {} of {} vertices", i, count_));
         }
-        const bool swap = (format_ == Format::BigEndian) == (std::endian::native == std::endian::little);
         Eigen::Vector3d point;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             point[static_cast<Eigen::Index>(axis)] =
-                numberAt(bytes_.data() + at_ + axes_[axis].offset, axes_[axis].type, swap);
+                numberAt(bytes_.data() + at_ + axes_[axis].offset, axes_[axis].type, swapped());
         }
         at_ += record_bytes_;
         return take(i, point);
@@ -253,6 +299,10 @@ class PlyReader {
     std::vector<Property> properties_;
     std::array<Axis, 3> axes_{};
     std::size_t record_bytes_ = 0;
+    std::size_t face_count_ = 0;
+    bool faces_follow_ = false;  ///< the vertices, with nothing between
+    std::optional<Type> length_type_;
+    std::optional<Type> index_type_;
     Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
     ScatteredPoints points_;
 };
@@ -264,6 +314,18 @@ Result<ScatteredPoints> readPly(const std::filesystem::path& file, Progress& pro
     const auto bytes = readWholeFile(file, kMostBytes);
     if (!bytes) return tl::unexpected(bytes.error());
     return PlyReader(file, *bytes).read(progress, stop);
+}
+
+Result<TriangleMesh> readMeshPly(const std::filesystem::path& file, Progress& progress,
+                                 std::stop_token stop) {
+    const auto bytes = readWholeFile(file, kMostBytes);
+    if (!bytes) return tl::unexpected(bytes.error());
+    PlyReader reader(file, *bytes);
+    auto vertices = reader.read(progress, stop);
+    if (!vertices) return tl::unexpected(vertices.error());
+    auto triangles = reader.readTriangles();
+    if (!triangles) return tl::unexpected(triangles.error());
+    return TriangleMesh{std::move(vertices->points), std::move(*triangles)};
 }
 
 }  // namespace terrawalk

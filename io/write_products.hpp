@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <stop_token>
 #include <string>
@@ -40,6 +42,19 @@ struct DemDescription {
 [[nodiscard]] Result<void> writeBreaklines(const std::vector<Breakline>& lines, const std::string& layer_name,
                                            const std::string& crs_wkt2, const std::filesystem::path& file,
                                            std::stop_token stop = {});
+
+/// How QGIS shows a raster that it opens: as shaded relief, light from the north-west. Goes beside the raster
+/// as NAME.qml, which QGIS reads by itself. Errors: System.
+[[nodiscard]] Result<void> writeHillshadeStyle(const std::filesystem::path& file);
+/// The same relief over heights in colours, which is two layers and so more than a style can say: a layer
+/// definition (.qlr) to drag into QGIS, beside the raster. Errors: BadData for an empty ramp or range;
+/// System.
+/// @param dem_name  file name of the raster
+/// @param ramp      colours from the lowest to the highest, at least two
+[[nodiscard]] Result<void> writeShadedLayers(const std::string& dem_name, const std::string& crs_wkt2,
+                                             double lowest, double highest,
+                                             const std::vector<std::array<std::uint8_t, 3>>& ramp,
+                                             const std::filesystem::path& file);
 
 /// Binary little-endian PLY, float offsets from the origin that its comment states (integer metres). A float
 /// steps by at most 0.5 mm within 8 km of the origin. Errors: BadData for a mesh without triangles; System.

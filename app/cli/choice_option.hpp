@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace terrawalk {
 
@@ -23,6 +24,24 @@ CLI::Option* addChoice(CLI::App& command, const std::string& option, Enum& value
     return command.add_option(option, value, meaning + ": " + list)
         ->transform(CLI::Transformer(by_name, CLI::ignore_case))
         ->option_text("NAME [" + std::string(name(value)) + "]");
+}
+
+/// An option that takes several of some names, with commas between them.
+template <class Enum, std::size_t n>
+CLI::Option* addChoices(CLI::App& command, const std::string& option, std::vector<Enum>& values,
+                        const std::array<std::pair<Enum, std::string_view>, n>& names,
+                        const std::string& meaning) {
+    std::map<std::string, Enum> by_name;
+    std::string list;
+    for (const auto& [choice, text] : names) {
+        by_name.emplace(text, choice);
+        list += (list.empty() ? "" : ", ") + std::string(text);
+    }
+    return command.add_option(option, values, meaning + ": " + list)
+        ->transform(CLI::CheckedTransformer(by_name, CLI::ignore_case))
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->option_text("NAME,...");
 }
 
 }  // namespace terrawalk

@@ -5,12 +5,15 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <new>
 #include <optional>
 #include <ranges>
 #include <string>
 #include <vector>
 
+#include "app/cli/analysis_options.hpp"
+#include "app/cli/export_options.hpp"
 #include "app/cli/interrupt.hpp"
 #include "app/cli/simulate_options.hpp"
 #include "app/cli/surface_options.hpp"
@@ -278,27 +281,49 @@ int runExperiments(const ExperimentArguments& arguments, const Common& common, T
     return 0;
 }
 
-int runSurface(const SurfaceRequest& request, const Common& common, TerminalProgress& progress,
-               const std::stop_token& stop) {
-    const auto report = makeSurface(request, progress, stop);
-    if (!report) return fail(report.error(), common, progress);
+/// Prints what a job came to.
+template <class Outcome>
+int tell(const Result<Outcome>& outcome, const Common& common, TerminalProgress& progress) {
+    if (!outcome) return fail(outcome.error(), common, progress);
     progress.clear();
     if (common.json) {
-        fmt::print("{}", toJson(*report));
+        fmt::print("{}", toJson(*outcome));
     } else if (!common.quiet) {
-        fmt::print("{}", toText(*report));
+        fmt::print("{}", toText(*outcome));
     }
     return 0;
 }
 
-int runVolume(const VolumeRequest& request, const Common& common, TerminalProgress& progress,
-              const std::stop_token& stop) {
-    const auto outcome = measureVolume(request, progress, stop);
-    if (!outcome) return fail(outcome.error(), common, progress);
-    progress.clear();
-    fmt::print("{}", common.json ? toJson(*outcome) : toText(*outcome));
-    return 0;
-}
+/// Commands that are a request, a job and its outcome, and nothing else.
+class JobCommands {
+  public:
+    JobCommands(CLI::App& app, Common& common) : app_(app), common_(common) {}
+
+    /// @param request  is filled by the options, so it must outlive this
+    template <class Request, class Job>
+    void add(const char* name, const char* about, void (*addOptions)(CLI::App&, Request&), Request& request,
+             Job job) {
+        CLI::App* const command = app_.add_subcommand(name, about);
+        addOptions(*command, request);
+        addCommon(*command, common_);
+        commands_.emplace_back(command,
+                               [this, &request, job](TerminalProgress& progress, std::stop_token stop) {
+                                   return tell(job(request, progress, std::move(stop)), common_, progress);
+                               });
+    }
+    /// The exit code of the command that was named; nothing when it is none of these.
+    std::optional<int> run(TerminalProgress& progress, const std::stop_token& stop) const {
+        for (const auto& [command, job] : commands_) {
+            if (command->parsed()) return job(progress, stop);
+        }
+        return std::nullopt;
+    }
+
+  private:
+    CLI::App& app_;
+    Common& common_;
+    std::vector<std::pair<CLI::App*, std::function<int(TerminalProgress&, std::stop_token)>>> commands_;
+};
 
 int runConfigPrint(const ProcessArguments& arguments, const Common& common, TerminalProgress& progress) {
     const auto config = configuration(arguments);
@@ -413,17 +438,34 @@ int run(int argc, char** argv) {
         ->capture_default_str();
     addCommon(*experiment_command, common);
 
+    JobCommands jobs(app, common);
     SurfaceRequest surface;
-    CLI::App* surface_command = app.add_subcommand(
-        "surface", "Make a DEM from ground points of any origin, by the method that fits them");
-    addSurfaceOptions(*surface_command, surface);
-    addCommon(*surface_command, common);
-
+    jobs.add("surface", "Make a DEM from ground points of any origin, by the method that fits them",
+             addSurfaceOptions, surface, makeSurface);
     VolumeRequest volume;
-    CLI::App* volume_command = app.add_subcommand(
-        "volume", "Tell the volume between a DEM and a plane or another DEM, with its error");
-    addVolumeOptions(*volume_command, volume);
-    addCommon(*volume_command, common);
+    jobs.add("volume", "Tell the volume between a DEM and a plane or another DEM, with its error",
+             addVolumeOptions, volume, measureVolume);
+    ContourRequest contours;
+    jobs.add("contour", "Draw smooth contours that never cross", addContourOptions, contours, makeContours);
+    ProfileRequest profile;
+    jobs.add("profile", "Tell the heights along a line", addProfileOptions, profile, makeProfile);
+    DifferenceRequest difference;
+    jobs.add("diff", "Tell what changed between two surveys, and what of it is beyond error",
+             addDifferenceOptions, difference, compareDems);
+    DeriveRequest derived;
+    jobs.add("derive", "Make hillshade, slope, aspect, curvature, roughness, drainage of a DEM",
+             addDeriveOptions, derived, deriveRasters);
+    ValidateRequest validated_dem;
+    jobs.add("validate", "Measure a DEM's errors at marks", addValidateOptions, validated_dem, validateDem);
+    WalkAdviceRequest advice;
+    jobs.add("walk-again", "Find where another walk would help most", addWalkAdviceOptions, advice,
+             adviseWalk);
+    ExportRequest exported;
+    jobs.add("export", "Write results of a processed survey for other programs", addExportOptions, exported,
+             exportResults);
+    OccupancyRequest occupancy;
+    jobs.add("occupancy", "Map the space above ground that the laser knows to be free or taken",
+             addOccupancyOptions, occupancy, mapOccupancy);
 
     CLI::App* config_command = app.add_subcommand("config", "Show and check parameters");
     config_command->require_subcommand(1);
@@ -452,8 +494,7 @@ int run(int argc, char** argv) {
     if (inspect_command->parsed()) return runInspect(inspected, common, progress, interrupt.token());
     if (simulate_command->parsed()) return runSimulate(simulate, common, progress, interrupt.token());
     if (experiment_command->parsed()) return runExperiments(experiment, common, progress, interrupt.token());
-    if (surface_command->parsed()) return runSurface(surface, common, progress, interrupt.token());
-    if (volume_command->parsed()) return runVolume(volume, common, progress, interrupt.token());
+    if (const auto code = jobs.run(progress, interrupt.token())) return *code;
     if (print_command->parsed()) return runConfigPrint(process, common, progress);
     if (describe_command->parsed()) return runConfigDescribe(common);
     return runConfigValidate(validated, common, progress);

@@ -79,6 +79,10 @@ Result<LinearProjection> linearised(const MapProjection& projection, const GridG
 
 }  // namespace
 
+std::vector<Colour> reliefRamp() {
+    return parseRamp(resources::relief_ramp);
+}
+
 Result<ReliefPicture> reliefPicture(const SurfaceModel& surface, const MapProjection& projection,
                                     const std::vector<GroundPoint>& ground_points) {
     ElevationGrid grid{pictureFrame(ground_points), {}};
@@ -93,7 +97,7 @@ Result<ReliefPicture> reliefPicture(const SurfaceModel& surface, const MapProjec
             if (height_m) grid.heights_m[row * g.columns + column] = static_cast<float>(*height_m);
         }
     });
-    const std::vector<Colour> ramp = parseRamp(resources::relief_ramp);
+    const std::vector<Colour> ramp = reliefRamp();
     const ReliefImage image = shadedRelief(grid, ramp);
     auto png = encodePng(image);
     if (!png) return tl::unexpected(png.error());

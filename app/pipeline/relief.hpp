@@ -4,6 +4,7 @@
 
 #include "app/pipeline/surface_model.hpp"
 #include "io/map_projection.hpp"
+#include "mapping/shaded_relief.hpp"
 #include "survey/ground_point.hpp"
 #include "survey/relief_image.hpp"
 #include "survey/result.hpp"
@@ -15,5 +16,8 @@ namespace terrawalk {
 [[nodiscard]] Result<ReliefPicture> reliefPicture(const SurfaceModel& surface,
                                                   const MapProjection& projection,
                                                   const std::vector<GroundPoint>& ground_points);
+
+/// Colours of heights, from the lowest to the highest.
+[[nodiscard]] std::vector<Colour> reliefRamp();
 
 }  // namespace terrawalk

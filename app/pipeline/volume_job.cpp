@@ -5,12 +5,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "io/read_dem.hpp"
+#include "app/pipeline/raster_input.hpp"
 
 namespace terrawalk {
 namespace {
-
-namespace fs = std::filesystem;
 
 Result<void> checkRequest(const VolumeRequest& r) {
     if (r.plane.has_value() == !r.against.empty()) {
@@ -26,56 +24,6 @@ Result<void> checkRequest(const VolumeRequest& r) {
     }
     if (r.plane && !std::isfinite(*r.plane)) return usageError("the plane has no height");
     return {};
-}
-
-/// A raster on the DEM's own cells.
-Result<ElevationGrid> readAlike(const fs::path& file, const DemFile& dem, const std::stop_token& stop) {
-    auto other = readDem(file, stop);
-    if (!other) return tl::unexpected(other.error());
-    if (!(other->grid.geometry == dem.grid.geometry)) {
-        return badData("the cells are not those of the DEM", file, 0,
-                       "grid both with the same --resolution and --extent, or warp one to the other");
-    }
-    if (other->crs.name != dem.crs.name) {
-        return badData(fmt::format("the CRS is {}, that of the DEM {}", other->crs.name, dem.crs.name), file);
-    }
-    return std::move(other->grid);
-}
-
-/// Adds the variance of one surface, cell by cell; a cell without sigma where there is a difference is an
-/// error.
-Result<void> addVariance(const fs::path& file, double sigma, const DemFile& dem,
-                         const ElevationGrid& difference, std::vector<float>& variances,
-                         const std::stop_token& stop) {
-    if (file.empty()) {
-        for (float& variance : variances) variance += static_cast<float>(sigma * sigma);
-        return {};
-    }
-    const auto sigmas = readAlike(file, dem, stop);
-    if (!sigmas) return tl::unexpected(sigmas.error());
-    for (std::size_t cell = 0; cell < variances.size(); ++cell) {
-        if (std::isnan(difference.heights_m[cell])) continue;
-        const float own = sigmas->heights_m[cell];
-        if (!(own >= 0.0F)) return badData("a cell with a height has no sigma", file);
-        variances[cell] += own * own;
-    }
-    return {};
-}
-
-Result<std::vector<float>> sigmasOf(const VolumeRequest& r, const DemFile& dem,
-                                    const ElevationGrid& difference, const std::stop_token& stop) {
-    std::vector<float> variances(difference.heights_m.size(), 0.0F);
-    if (auto done = addVariance(r.uncertainty, r.sigma, dem, difference, variances, stop); !done) {
-        return tl::unexpected(done.error());
-    }
-    if (!r.against.empty()) {
-        if (auto done = addVariance(r.against_uncertainty, r.sigma, dem, difference, variances, stop);
-            !done) {
-            return tl::unexpected(done.error());
-        }
-    }
-    for (float& value : variances) value = std::sqrt(value);
-    return variances;
 }
 
 }  // namespace
@@ -98,7 +46,9 @@ Result<VolumeOutcome> measureVolume(const VolumeRequest& request, Progress& prog
         }
     }
     VolumeErrorModel errors;
-    auto sigmas = sigmasOf(request, *dem, difference, stop);
+    std::vector<SigmaSource> sources{{request.uncertainty, request.sigma}};
+    if (!request.plane) sources.push_back({request.against_uncertainty, request.sigma});
+    auto sigmas = combinedSigmas(sources, *dem, difference, stop);
     if (!sigmas) return tl::unexpected(sigmas.error());
     errors.sigmas_m = std::move(*sigmas);
     errors.correlation_range_m = request.correlation_range;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/pipeline/process.hpp"
+#include "app/pipeline/relief.hpp"
 #include "app/pipeline/version.hpp"
 #include "io/write_products.hpp"
 
@@ -42,14 +43,23 @@ Result<std::vector<InputFile>> describeInputs(const Survey& survey) {
     return inputs;
 }
 
-std::string manifestText(const Products& products, const SurveyReport& report, const Provenance& provenance,
-                         const std::vector<std::string>& files) {
+/// What takes local coordinates to the map.
+ordered_json frameJson(const Survey& survey) {
+    const GeodeticPosition& zero = survey.zero_point;
+    return {{"zero_point", {{"lat_deg", zero.lat_deg}, {"lon_deg", zero.lon_deg}, {"h_ell_m", zero.h_ell_m}}},
+            {"crs", survey.crs},
+            {"vertical_datum", survey.vertical_datum}};
+}
+
+std::string manifestText(const Survey& survey, const Products& products, const SurveyReport& report,
+                         const Provenance& provenance, const std::vector<std::string>& files) {
     ordered_json manifest{{"format", kOutputFormat},
                           {"program", programVersion()},
                           {"libraries", ordered_json::object()},
                           {"command", provenance.command},
                           {"seed", report.seed},
                           {"survey", report.survey_name},
+                          {"frame", frameJson(survey)},
                           {"inputs", ordered_json::array()},
                           {"products", files},
                           {"configuration", ordered_json::parse(toJson(products.used))}};
@@ -87,6 +97,15 @@ Result<void> writeProducts(const Survey& survey, const Products& products, const
         {"dem.tif",
          [&](const fs::path& f) {
              return writeDem(products.dem, describeDem(products, survey), f, stop);
+         }},
+        {"dem.qml",
+         [](const fs::path& f) {
+             return writeHillshadeStyle(f);
+         }},
+        {"dem.qlr",
+         [&](const fs::path& f) {
+             return writeShadedLayers("dem.tif", products.crs_wkt2, report.surface.lowest_m,
+                                      report.surface.highest_m, reliefRamp(), f);
          }},
         {"surface.ply",
          [&](const fs::path& f) {
@@ -132,7 +151,7 @@ Result<void> writeProducts(const Survey& survey, const Products& products, const
     for (const auto& writer : writers) files.push_back(writer.first);
     files.emplace_back("manifest.json");
     writers.emplace_back("manifest.json", [&](const fs::path& f) {
-        return writeTextFile(manifestText(products, report, provenance, files), f);
+        return writeTextFile(manifestText(survey, products, report, provenance, files), f);
     });
 
     for (std::size_t i = 0; i < writers.size(); ++i) {

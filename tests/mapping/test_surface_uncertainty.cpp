@@ -1,0 +1,164 @@
+#include "mapping/surface_uncertainty.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace terrawalk {
+namespace {
+
+double rolling(double x, double y) {
+    return 0.8 * std::sin(0.35 * x) * std::cos(0.3 * y) + 0.05 * x;
+}
+
+// Normal numbers by Box and Muller, the same on every machine.
+double normal(std::mt19937_64& engine) {
+    const auto uniform = [&] {
+        return (static_cast<double>(engine() >> 11U) + 0.5) * 0x1.0p-53;
+    };
+    return std::sqrt(-2.0 * std::log(uniform())) * std::cos(6.283185307179586 * uniform());
+}
+
+std::vector<Eigen::Vector3d> scattered(std::size_t n, double noise_m, std::uint64_t seed) {
+    std::mt19937_64 engine(seed);
+    std::vector<Eigen::Vector3d> points;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double x = 60.0 * static_cast<double>(engine() >> 11U) * 0x1.0p-53;
+        const double y = 60.0 * static_cast<double>(engine() >> 11U) * 0x1.0p-53;
+        points.emplace_back(x, y, rolling(x, y) + noise_m * normal(engine));
+    }
+    return points;
+}
+
+InterpolationErrorModel learnt(const std::vector<Eigen::Vector3d>& points) {
+    SilentProgress silent;
+    const auto model = learnInterpolationError(InterpolationMethod::Linear, points, {}, {}, 1, silent, {});
+    EXPECT_TRUE(model) << model.error().text();
+    return *model;
+}
+
+ElevationGrid gridOf(const std::vector<Eigen::Vector3d>& points, double cell_m) {
+    SilentProgress silent;
+    const auto surface = fitInterpolator(InterpolationMethod::Linear, points, {}, {}, silent, {}).value();
+    const auto side = static_cast<std::size_t>(std::lround(60.0 / cell_m));
+    return interpolateGrid(*surface, {0.0, 60.0, cell_m, side, side}, {}, silent, {}).value().heights;
+}
+
+TEST(InterpolationError, KnowsTheNoiseOfPointsOnAPlane) {
+    std::mt19937_64 engine(5);
+    std::vector<Eigen::Vector3d> points = scattered(4000, 0.0, 3);
+    for (Eigen::Vector3d& p : points) p.z() = 0.1 * p.x() + 0.05 * normal(engine);
+    const InterpolationErrorModel model = learnt(points);
+    // Foretold from three points or so, whose noise is averaged, and held against one more: between one and
+    // two variances. Nothing grows with distance on a plane.
+    EXPECT_GT(model.coefficients[0], 0.0025);
+    EXPECT_LT(model.coefficients[0], 0.0055);
+    EXPECT_LT(model.variance_m2(3.0, 0.1), 2.0 * model.variance_m2(0.0, 0.1));
+}
+
+TEST(InterpolationError, GrowsWithDistanceOnRollingGround) {
+    const InterpolationErrorModel model = learnt(scattered(3000, 0.0, 4));
+    EXPECT_GT(model.variance_m2(4.0, 0.2), 4.0 * model.variance_m2(0.5, 0.2));
+    EXPECT_GT(model.greatest_distance_m, 4.0);
+    // Its own teachers, which are not normal but near.
+    const double within = static_cast<double>(model.left_out.within) / static_cast<double>(model.left_out.n);
+    EXPECT_GT(within, 0.9);
+    EXPECT_LT(within, 0.99);
+}
+
+TEST(InterpolationError, IsTheSameForAnyOrderAndNumberOfThreads) {
+    std::vector<Eigen::Vector3d> points = scattered(1500, 0.02, 6);
+    const InterpolationErrorModel a = learnt(points);
+    std::reverse(points.begin(), points.end());
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    const InterpolationErrorModel b = learnt(points);
+    EXPECT_EQ(a.coefficients, b.coefficients);
+    EXPECT_EQ(a.left_out.within, b.left_out.within);
+}
+
+TEST(InterpolationError, NeedsPoints) {
+    SilentProgress silent;
+    const auto few =
+        learnInterpolationError(InterpolationMethod::Linear, scattered(20, 0.0, 1), {}, {}, 1, silent, {});
+    ASSERT_FALSE(few);
+    EXPECT_EQ(few.error().kind, ErrorKind::BadData);
+    std::stop_source stop;
+    stop.request_stop();
+    const auto stopped = learnInterpolationError(InterpolationMethod::Linear, scattered(2000, 0.0, 1), {}, {},
+                                                 1, silent, stop.get_token());
+    ASSERT_FALSE(stopped);
+    EXPECT_EQ(stopped.error().kind, ErrorKind::Cancelled);
+}
+
+// Seeds of the surface that the model did not see decide: the truth is known in each cell.
+TEST(SurfaceUncertainty, BandsHoldTheTruthOnGroundThatIsKnown) {
+    for (const std::uint64_t seed : {11U, 12U, 13U}) {
+        const std::vector<Eigen::Vector3d> points = scattered(2500, 0.05, seed);
+        const ElevationGrid dem = gridOf(points, 0.5);
+        SilentProgress silent;
+        const auto u = surfaceUncertainty(dem, points, std::vector<TrackSigma>(points.size()), learnt(points),
+                                          silent, {});
+        ASSERT_TRUE(u);
+        double n = 0.0, within = 0.0;
+        for (std::size_t r = 0; r < dem.geometry.rows; ++r) {
+            for (std::size_t c = 0; c < dem.geometry.columns; ++c) {
+                const std::size_t i = r * dem.geometry.columns + c;
+                if (std::isnan(dem.heights_m[i])) continue;
+                const double error =
+                    dem.heights_m[i] - rolling(dem.geometry.centreX(c), dem.geometry.centreY(r));
+                n += 1.0;
+                if (std::abs(error) <= 1.96 * u->sigmas_m[i]) within += 1.0;
+            }
+        }
+        EXPECT_GT(within / n, 0.90) << seed;
+        EXPECT_LT(within / n, 0.985) << seed;
+    }
+}
+
+TEST(SurfaceUncertainty, AddsTheTrackWithoutAveragingItAway) {
+    std::vector<Eigen::Vector3d> points = scattered(2500, 0.0, 21);
+    for (Eigen::Vector3d& p : points) p.z() = 0.5 * p.x();
+    const ElevationGrid dem = gridOf(points, 0.5);
+    const InterpolationErrorModel exact;  // of nothing but the track
+    SilentProgress silent;
+    const auto u = surfaceUncertainty(dem, points, std::vector<TrackSigma>(points.size(), {0.3, 0.8}), exact,
+                                      silent, {});
+    ASSERT_TRUE(u);
+    const auto cell = dem.geometry.cellAt(30.0, 30.0);
+    ASSERT_TRUE(cell);
+    EXPECT_NEAR(u->sigmas_m[*cell], std::hypot(0.3, 0.5 * 0.8), 1e-3);
+}
+
+TEST(SurfaceUncertainty, TellsWhereCellsCameFrom) {
+    // Two rows of points 8 m apart.
+    std::vector<Eigen::Vector3d> points;
+    for (int i = 0; i < 60; ++i) {
+        points.emplace_back(i + 0.25, 20.25, 1.0);
+        points.emplace_back(i + 0.25, 28.25, 1.0);
+    }
+    const ElevationGrid dem = gridOf(points, 0.5);
+    InterpolationErrorModel model;
+    model.coefficients = {0.0, 0.01, 0.0, 0.0};
+    model.greatest_distance_m = 3.0;
+    SilentProgress silent;
+    const auto u = surfaceUncertainty(dem, points, std::vector<TrackSigma>(points.size()), model, silent, {});
+    ASSERT_TRUE(u);
+    const auto source = [&](double x, double y) {
+        return static_cast<CellSource>(u->sources[dem.geometry.cellAt(x, y).value()]);
+    };
+    EXPECT_EQ(source(30.25, 20.25), CellSource::Measured);
+    EXPECT_EQ(source(30.25, 22.25), CellSource::Interpolated);
+    EXPECT_EQ(source(30.25, 24.25), CellSource::Extrapolated);
+    EXPECT_EQ(source(30.25, 40.25), CellSource::None);
+    EXPECT_TRUE(std::isnan(u->sigmas_m[dem.geometry.cellAt(30.25, 40.25).value()]));
+    // One point each metre within a square of 2.5 m: five cells either way hold two or three points.
+    EXPECT_NEAR(u->density_per_m2[dem.geometry.cellAt(30.25, 20.25).value()], 2.5 / 6.25, 0.1);
+    EXPECT_EQ(u->density_per_m2[dem.geometry.cellAt(30.25, 24.25).value()], 0.0F);
+    EXPECT_EQ(surfaceUncertainty(dem, points, {}, model, silent, {}).error().kind, ErrorKind::Usage);
+}
+
+}  // namespace
+}  // namespace terrawalk
