@@ -46,6 +46,12 @@ std::array<double, 6> geotransform(const GridGeometry& geometry) {
     return {geometry.west_m, geometry.cell_m, 0.0, geometry.north_m, 0.0, -geometry.cell_m};
 }
 
+/// One band of a file.
+struct Band {
+    std::string quantity;
+    std::vector<float> cells;  ///< as they stand in the file
+};
+
 Result<void> checkGrid(const ElevationGrid& grid, const std::filesystem::path& file) {
     const GridGeometry& geometry = grid.geometry;
     constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<int>::max());
@@ -83,8 +89,21 @@ Result<std::vector<float>> cellsOf(const ElevationGrid& grid, const std::filesys
     return cells;
 }
 
-/// A dataset over `cells`, which must outlive it, with everything that the file is to say.
-Result<GdalDataset> describe(const ElevationGrid& grid, std::vector<float>& cells,
+bool addBand(GDALDataset& dataset, Band& band, const std::string& unit) {
+    CPLStringList memory;
+    memory.SetNameValue("DATAPOINTER", fmt::format("{}", fmt::ptr(band.cells.data())).c_str());
+    if (dataset.AddBand(GDT_Float32, memory.List()) != CE_None) return false;
+    GDALRasterBand* const raster = dataset.GetRasterBand(dataset.GetRasterCount());
+    raster->SetDescription(fmt::format("{} ({})", band.quantity, unit).c_str());
+    std::array<double, 4> statistics{};
+    return raster->SetUnitType(unit.c_str()) == CE_None &&
+           raster->SetNoDataValue(double{kNoData}) == CE_None &&
+           raster->ComputeStatistics(FALSE, &statistics[0], &statistics[1], &statistics[2], &statistics[3],
+                                     nullptr, nullptr) == CE_None;
+}
+
+/// A dataset over the cells of the bands, which must outlive it, with everything that the file is to say.
+Result<GdalDataset> describe(const ElevationGrid& grid, std::vector<Band>& bands,
                              const DemDescription& description, const GdalErrors& errors,
                              const std::filesystem::path& file) {
     OGRSpatialReference crs;
@@ -96,12 +115,9 @@ Result<GdalDataset> describe(const ElevationGrid& grid, std::vector<float>& cell
         "", static_cast<int>(grid.geometry.columns), static_cast<int>(grid.geometry.rows), 0, GDT_Float32,
         nullptr));
     if (!dataset) return systemError("cannot make the DEM: " + errors.text(), file);
-    CPLStringList memory;
-    memory.SetNameValue("DATAPOINTER", fmt::format("{}", fmt::ptr(cells.data())).c_str());
     auto transform = geotransform(grid.geometry);
-    bool ok = dataset->AddBand(GDT_Float32, memory.List()) == CE_None &&
-              dataset->SetSpatialRef(&crs) == CE_None &&
-              dataset->SetGeoTransform(transform.data()) == CE_None;
+    bool ok =
+        dataset->SetSpatialRef(&crs) == CE_None && dataset->SetGeoTransform(transform.data()) == CE_None;
     const auto setItem = [&](const std::string& key, const std::string& value) {
         ok = ok && dataset->SetMetadataItem(key.c_str(), value.c_str()) == CE_None;
     };
@@ -110,20 +126,12 @@ Result<GdalDataset> describe(const ElevationGrid& grid, std::vector<float>& cell
     setItem("TIFFTAG_IMAGEDESCRIPTION", description.title);
     setItem("TIFFTAG_SOFTWARE", description.software);
     for (const auto& [key, value] : description.metadata) setItem(key, value);
-    if (!ok) return systemError("cannot describe the DEM: " + errors.text(), file);
-
-    GDALRasterBand* const band = dataset->GetRasterBand(1);
-    band->SetDescription(fmt::format("{} ({})", description.quantity, description.unit).c_str());
-    ok = band->SetUnitType(description.unit.c_str()) == CE_None &&
-         band->SetNoDataValue(double{kNoData}) == CE_None;
-    std::array<double, 4> statistics{};
-    ok = ok && band->ComputeStatistics(FALSE, &statistics[0], &statistics[1], &statistics[2], &statistics[3],
-                                       nullptr, nullptr) == CE_None;
+    for (Band& band : bands) ok = ok && addBand(*dataset, band, description.unit);
     if (!ok) return systemError("cannot describe the DEM: " + errors.text(), file);
     return dataset;
 }
 
-Result<void> writeCog(GDALDataset& source, const GdalErrors& errors, std::stop_token stop,
+Result<void> writeCog(GDALDataset& source, bool classes, const GdalErrors& errors, std::stop_token stop,
                       const std::filesystem::path& to, const std::filesystem::path& file) {
     CPLStringList options;
     options.SetNameValue("COMPRESS", "DEFLATE");
@@ -131,7 +139,8 @@ Result<void> writeCog(GDALDataset& source, const GdalErrors& errors, std::stop_t
     options.SetNameValue("LEVEL", "6");  // 9 takes three times as long for a file smaller by a hundredth
     options.SetNameValue("BLOCKSIZE", "512");
     options.SetNameValue("OVERVIEWS", "IGNORE_EXISTING");
-    options.SetNameValue("OVERVIEW_RESAMPLING", "AVERAGE");  // cubic would ring at terrace edges
+    // Cubic would ring at terrace edges.
+    options.SetNameValue("OVERVIEW_RESAMPLING", classes ? "MODE" : "AVERAGE");
     options.SetNameValue("NUM_THREADS", std::to_string(threadCount()).c_str());
     options.SetNameValue("BIGTIFF", "IF_SAFER");
     GdalDataset written(GetGDALDriverManager()->GetDriverByName("COG")->CreateCopy(
@@ -154,7 +163,7 @@ bool sameCrs(const GDALDataset& one, const GDALDataset& other) {
     return a->IsSame(b, options.data()) != 0;
 }
 
-bool sameCells(GDALDataset& dataset, const std::vector<float>& cells, std::stop_token stop) {
+bool sameCells(GDALDataset& dataset, int band, const std::vector<float>& cells, std::stop_token stop) {
     const int columns = dataset.GetRasterXSize();
     const int rows = dataset.GetRasterYSize();
     std::vector<float> block(static_cast<std::size_t>(columns) *
@@ -162,8 +171,8 @@ bool sameCells(GDALDataset& dataset, const std::vector<float>& cells, std::stop_
     auto expected = cells.begin();
     for (int row = 0; row < rows && !stop.stop_requested(); row += kRowsAtOnce) {
         const int count = std::min(kRowsAtOnce, rows - row);
-        if (dataset.GetRasterBand(1)->RasterIO(GF_Read, 0, row, columns, count, block.data(), columns, count,
-                                               GDT_Float32, 0, 0, nullptr) != CE_None) {
+        if (dataset.GetRasterBand(band)->RasterIO(GF_Read, 0, row, columns, count, block.data(), columns,
+                                                  count, GDT_Float32, 0, 0, nullptr) != CE_None) {
             return false;
         }
         const auto size = static_cast<std::ptrdiff_t>(columns) * count;
@@ -174,7 +183,7 @@ bool sameCells(GDALDataset& dataset, const std::vector<float>& cells, std::stop_
 }
 
 /// Reads the file again: a DEM that lies beside its place is worse than none.
-Result<void> verify(const GDALDataset& source, const ElevationGrid& grid, const std::vector<float>& cells,
+Result<void> verify(const GDALDataset& source, const ElevationGrid& grid, const std::vector<Band>& bands,
                     std::stop_token stop, const std::filesystem::path& written,
                     const std::filesystem::path& file) {
     const GdalErrors errors;
@@ -186,7 +195,9 @@ Result<void> verify(const GDALDataset& source, const ElevationGrid& grid, const 
             "the DEM just written does not read back: " + what + (errors.any() ? ", " + errors.text() : ""),
             file);
     };
-    if (!dataset || dataset->GetRasterCount() != 1) return refused("no raster");
+    if (!dataset || dataset->GetRasterCount() != static_cast<int>(bands.size())) {
+        return refused("no raster");
+    }
     if (dataset->GetRasterXSize() != static_cast<int>(grid.geometry.columns) ||
         dataset->GetRasterYSize() != static_cast<int>(grid.geometry.rows)) {
         return refused("another size");
@@ -200,7 +211,10 @@ Result<void> verify(const GDALDataset& source, const ElevationGrid& grid, const 
         return refused("another nodata value");
     }
     if (!sameCrs(source, *dataset)) return refused("GeoTIFF cannot hold this CRS");
-    if (!sameCells(*dataset, cells, stop)) return refused("other heights");
+    for (std::size_t b = 0; b < bands.size(); ++b) {
+        if (!sameCells(*dataset, static_cast<int>(b) + 1, bands[b].cells, stop))
+            return refused("other heights");
+    }
     if (stop.stop_requested()) return cancelled();
     return {};
 }
@@ -220,6 +234,24 @@ Result<void> removeSideFiles(const std::filesystem::path& file) {
     return {};
 }
 
+Result<void> writeBands(const ElevationGrid& grid, std::vector<Band> bands, const DemDescription& description,
+                        const std::filesystem::path& file, std::stop_token stop) {
+    auto out = ReplacingFile::create(file);
+    if (!out) return tl::unexpected(out.error());
+    registerDrivers();
+    const GdalErrors errors;
+    const CPLConfigOptionSetter no_side_files("GDAL_PAM_ENABLED", "NO", false);
+    const auto source = describe(grid, bands, description, errors, file);
+    if (!source) return tl::unexpected(source.error());
+    if (auto written = writeCog(**source, description.classes, errors, stop, out->temporary(), file);
+        !written) {
+        return written;
+    }
+    if (auto read = verify(**source, grid, bands, stop, out->temporary(), file); !read) return read;
+    if (auto removed = removeSideFiles(file); !removed) return removed;
+    return out->commit();
+}
+
 }  // namespace
 
 Result<void> writeDem(const ElevationGrid& grid, const DemDescription& description,
@@ -227,18 +259,25 @@ Result<void> writeDem(const ElevationGrid& grid, const DemDescription& descripti
     if (auto checked = checkGrid(grid, file); !checked) return checked;
     auto cells = cellsOf(grid, file);
     if (!cells) return tl::unexpected(cells.error());
-    auto out = ReplacingFile::create(file);
-    if (!out) return tl::unexpected(out.error());
+    std::vector<Band> bands;
+    bands.push_back({description.quantity, std::move(*cells)});
+    return writeBands(grid, std::move(bands), description, file, std::move(stop));
+}
 
-    registerDrivers();
-    const GdalErrors errors;
-    const CPLConfigOptionSetter no_side_files("GDAL_PAM_ENABLED", "NO", false);
-    const auto source = describe(grid, *cells, description, errors, file);
-    if (!source) return tl::unexpected(source.error());
-    if (auto written = writeCog(**source, errors, stop, out->temporary(), file); !written) return written;
-    if (auto read = verify(**source, grid, *cells, stop, out->temporary(), file); !read) return read;
-    if (auto removed = removeSideFiles(file); !removed) return removed;
-    return out->commit();
+Result<void> writeDemWithUncertainty(const ElevationGrid& grid, const std::vector<float>& sigmas,
+                                     const DemDescription& description, const std::filesystem::path& file,
+                                     std::stop_token stop) {
+    if (auto checked = checkGrid(grid, file); !checked) return checked;
+    const ElevationGrid uncertainty{grid.geometry, sigmas};
+    if (auto checked = checkGrid(uncertainty, file); !checked) return checked;
+    auto heights = cellsOf(grid, file);
+    if (!heights) return tl::unexpected(heights.error());
+    auto errors = cellsOf(uncertainty, file);
+    if (!errors) return tl::unexpected(errors.error());
+    std::vector<Band> bands;
+    bands.push_back({description.quantity, std::move(*heights)});
+    bands.push_back({"Uncertainty, 1 sigma", std::move(*errors)});
+    return writeBands(grid, std::move(bands), description, file, std::move(stop));
 }
 
 }  // namespace terrawalk

@@ -27,6 +27,7 @@ struct DemDescription {
     std::vector<std::pair<std::string, std::string>> metadata;  ///< further items, e.g. METHOD
     std::string quantity = "Elevation";                         ///< what the band holds
     std::string unit = "m";                                     ///< of the band: m, ft or US-ft
+    bool classes = false;  ///< values are names of classes: overviews show the most frequent, not a mean
 };
 
 /// Writes a Cloud-Optimized GeoTIFF: Float32, nodata -9999, statistics, averaged overviews,
@@ -35,6 +36,14 @@ struct DemDescription {
 /// height or with one that the file cannot hold, and for a CRS that GDAL does not know; System; Cancelled.
 [[nodiscard]] Result<void> writeDem(const ElevationGrid& grid, const DemDescription& description,
                                     const std::filesystem::path& file, std::stop_token stop = {});
+/// The same with a second band, the standard error of each height in the unit of the heights: elevation and
+/// uncertainty in the order of the Bathymetry Attributed Grid (BAG).
+/// @param sigmas  in the order of the cells; NaN where there is no height
+[[nodiscard]] Result<void> writeDemWithUncertainty(const ElevationGrid& grid,
+                                                   const std::vector<float>& sigmas,
+                                                   const DemDescription& description,
+                                                   const std::filesystem::path& file,
+                                                   std::stop_token stop = {});
 
 /// Writes a GeoPackage with one layer of lines with heights; fields "name" and "kind", as readBreaklines()
 /// takes them. The same lines give the same bytes. The file is read again before it takes its place. Errors:

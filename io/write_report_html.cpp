@@ -452,6 +452,20 @@ std::string surfaceSection(const SurveyReport& report) {
         "Cells with a height",
         fmt::format("{} ({}); the others are left empty, nothing is invented outside the walk",
                     groupedDigits(s.cells_with_height), share(s.cells_with_height, s.columns * s.rows)));
+    if (s.uncertainty) {
+        const UncertaintySummary& u = *s.uncertainty;
+        rows += pairRow("Standard error of a height",
+                        fmt::format("{} m in the middle, below {} m in 95 % of the cells",
+                                    metres3(u.median_m), metres3(u.error95_m)));
+        rows += pairRow("Cells",
+                        fmt::format("{} measured, {} interpolated, {} extrapolated (farther than {} m "
+                                    "from a point)",
+                                    groupedDigits(u.measured), groupedDigits(u.interpolated),
+                                    groupedDigits(u.extrapolated), fixedDecimals(u.greatest_distance_m, 1)));
+        rows += pairRow("Interpolation",
+                        fmt::format("{} heights foretold from the points around them, {} within 1.96 sigma",
+                                    groupedDigits(u.left_out.n), share(u.left_out.within, u.left_out.n)));
+    }
     rows += pairRow("Heights", fmt::format("{} m to {} m", metres3(s.lowest_m), metres3(s.highest_m)));
     rows += pairRow("Map frame", s.crs);
     rows += pairRow("Heights refer to", s.vertical_datum);

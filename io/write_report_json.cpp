@@ -119,6 +119,18 @@ Json edgesJson(const TerraceEdgeSummary& e) {
             {"median_location_sigma_m", jsonNumber(e.median_location_sigma_m)}};
 }
 
+Json uncertaintyJson(const std::optional<UncertaintySummary>& u) {
+    if (!u) return nullptr;
+    return {{"median_m", u->median_m},
+            {"error95_m", u->error95_m},
+            {"cells_measured", u->measured},
+            {"cells_interpolated", u->interpolated},
+            {"cells_extrapolated", u->extrapolated},
+            {"interpolation_coefficients", u->coefficients},
+            {"greatest_distance_m", u->greatest_distance_m},
+            {"left_out", coverageJson(u->left_out)}};
+}
+
 Json surfaceJson(const SurfaceReport& s) {
     return {{"method", s.method},
             {"method_requested", s.method_requested},
@@ -126,6 +138,7 @@ Json surfaceJson(const SurfaceReport& s) {
             {"cross_validation", comparisonJson(s.comparison)},
             {"breaklines", s.breaklines},
             {"terrace_edges", edgesJson(s.terrace_edges)},
+            {"uncertainty", uncertaintyJson(s.uncertainty)},
             {"notes", s.notes},
             {"points", s.points},
             {"triangles", s.triangles},

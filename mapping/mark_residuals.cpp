@@ -168,13 +168,14 @@ MarkResiduals surfaceResiduals(const std::vector<ControlMark>& marks, const Surf
                                Stage stage, const std::set<std::string>& tied_marks) {
     MarkResiduals out;
     for (const ControlMark& mark : marks) {
-        const std::optional<double> height_m = surface_height(mark);
-        if (!height_m || !std::isfinite(*height_m)) {
+        const std::optional<SurfaceHeight> surface = surface_height(mark);
+        if (!surface || !std::isfinite(surface->height_m)) {
             out.missing.push_back({stage, Quantity::SurfaceHeight, mark.name, mark.role, {}});
             continue;
         }
         Residual residual = residualAt(mark, stage, Quantity::SurfaceHeight);
-        residual.difference_enu_m.z() = *height_m - mark.enu_m.z();
+        residual.difference_enu_m.z() = surface->height_m - mark.enu_m.z();
+        residual.sigma_enu_m.z() = std::hypot(surface->sigma_m, mark.sigma_v_m);
         residual.used_by_estimator = tied_marks.contains(mark.name);
         out.residuals.push_back(std::move(residual));
     }

@@ -52,9 +52,13 @@ struct NearestSampleOptions {
                                                    const std::set<std::string>& tied_marks,
                                                    const NearestSampleOptions& options = {});
 
-/// Height of the surface at a mark, in the frame of the mark's u; nothing where there is no surface.
-using SurfaceHeightAt = std::function<std::optional<double>(const ControlMark&)>;
-/// Height of the surface at each mark. No sigma is predicted yet.
+struct SurfaceHeight {
+    double height_m = kMissing;  ///< in the frame of the mark's u
+    double sigma_m = kMissing;   ///< missing where none is predicted
+};
+/// The surface at a mark; nothing where there is none.
+using SurfaceHeightAt = std::function<std::optional<SurfaceHeight>(const ControlMark&)>;
+/// Height of the surface at each mark. The sigma is that of the surface and of the mark.
 [[nodiscard]] MarkResiduals surfaceResiduals(const std::vector<ControlMark>& marks,
                                              const SurfaceHeightAt& surface_height, Stage stage,
                                              const std::set<std::string>& tied_marks);

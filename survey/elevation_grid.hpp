@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace terrawalk {
@@ -22,6 +23,16 @@ struct GridGeometry {
     }
     [[nodiscard]] double centreY(std::size_t row) const {
         return north_m - (static_cast<double>(row) + 0.5) * cell_m;
+    }
+    /// Index of the cell that holds a place; west and north edges belong to it.
+    [[nodiscard]] std::optional<std::size_t> cellAt(double x_m, double y_m) const {
+        const double column = std::floor((x_m - west_m) / cell_m);
+        const double row = std::floor((north_m - y_m) / cell_m);
+        if (!(column >= 0.0 && row >= 0.0 && column < static_cast<double>(columns) &&
+              row < static_cast<double>(rows))) {
+            return std::nullopt;
+        }
+        return static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
     }
     [[nodiscard]] std::size_t size() const { return columns * rows; }
     bool operator==(const GridGeometry&) const = default;

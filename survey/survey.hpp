@@ -58,8 +58,8 @@ struct Survey {
     GeodeticPosition zero_point;
     std::string crs;  ///< as the project says, e.g. "EPSG:32649"; empty: the local frame is the map frame
     std::string vertical_datum = "local";
-    std::filesystem::path control_file;  ///< empty when the survey has no marks
-    std::vector<ControlMark> marks;      ///< without ZERO
+    std::filesystem::path control_file;    ///< empty when the survey has no marks
+    std::vector<ControlMark> marks;        ///< without ZERO
     std::filesystem::path breakline_file;  ///< empty when the survey has none
     std::vector<Breakline> breaklines;     ///< in the map frame
     std::string breakline_crs;             ///< of their file, as WKT; empty where it has none

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -73,7 +74,6 @@ struct MissingResidual {
     MarkRole role = MarkRole::Check;
     std::string run;  ///< run that stood on the mark; empty but for the array's position
 };
-
 
 /// Statistics of one group of residuals. Horizontal is the length of (e, n): its mean, RMSE, MAE and median
 /// are those of the distance, its SD and NMAD the spread of the distance, never negative.
@@ -158,6 +158,17 @@ struct TerraceEdgeSummary {
     double median_location_sigma_m = 0.0;  ///< of the edges' place, across
 };
 
+/// Standard errors of the heights of the grid.
+struct UncertaintySummary {
+    double median_m = 0.0;
+    double error95_m = 0.0;                                        ///< 95 % of the cells have a smaller sigma
+    std::size_t measured = 0, interpolated = 0, extrapolated = 0;  ///< cells, see CellSource
+    /// Squared error of interpolation at distance d and slope s: c0 / 2 + c1 d + c2 s^2 d + c3 s^2 d^2.
+    std::array<double, 4> coefficients{};
+    double greatest_distance_m = 0.0;  ///< from a point, of the points left out
+    SigmaCoverage left_out;            ///< the points left out against the model that they taught
+};
+
 struct SurfaceReport {
     std::string method;            ///< in words
     std::string method_requested;  ///< as on the command line, or "auto"
@@ -165,6 +176,7 @@ struct SurfaceReport {
     std::optional<InterpolationComparison> comparison;
     std::size_t breaklines = 0;  ///< that were given
     TerraceEdgeSummary terrace_edges;
+    std::optional<UncertaintySummary> uncertainty;
     std::vector<std::string> notes;
     std::size_t points = 0;
     std::size_t triangles = 0;

@@ -30,6 +30,7 @@ struct SurfaceOptions {
     TerraceEdgeUse terrace_edges = TerraceEdgeUse::Auto;
     bool cross_validate = true;  ///< methods are compared even where one is named
     double cell_m = 0.0;         ///< of the DEM; 0: from the density of the points
+    bool multiband = false;      ///< heights and their standard errors in one file as well
 };
 
 struct ReportOptions {

@@ -18,6 +18,7 @@
 #include "mapping/gridding.hpp"
 #include "mapping/mark_residuals.hpp"
 #include "mapping/order_statistics.hpp"
+#include "mapping/surface_uncertainty.hpp"
 
 namespace terrawalk {
 
@@ -255,14 +256,20 @@ Result<Surface> makeSurface(const Survey& survey, const std::vector<GroundPoint>
 }
 
 /// Height of the surface at a mark, taken back from the map's height datum to the mark's.
-SurfaceHeightAt heightOf(const SurfaceModel& surface, const MapProjection& projection) {
-    return [&](const ControlMark& mark) -> std::optional<double> {
-        const auto at = projection.toMap(mark.enu_m);
-        if (!at) return std::nullopt;
-        const auto height_m = surface.heightAt(at->x(), at->y());
-        if (!height_m) return std::nullopt;
-        return *height_m - at->z() + mark.enu_m.z();
-    };
+SurfaceHeightAt heightOf(const SurfaceModel& surface, const MapProjection& projection,
+                         const GridGeometry* grid = nullptr,
+                         const SurfaceUncertainty* uncertainty = nullptr) {
+    return
+        [&surface, &projection, grid, uncertainty](const ControlMark& mark) -> std::optional<SurfaceHeight> {
+            const auto at = projection.toMap(mark.enu_m);
+            if (!at) return std::nullopt;
+            const auto height_m = surface.heightAt(at->x(), at->y());
+            if (!height_m) return std::nullopt;
+            SurfaceHeight height{*height_m - at->z() + mark.enu_m.z()};
+            const auto cell = uncertainty != nullptr ? grid->cellAt(at->x(), at->y()) : std::nullopt;
+            if (cell) height.sigma_m = uncertainty->sigmas_m[*cell];
+            return height;
+        };
 }
 
 std::string inWords(const SurfaceModel& surface) {
@@ -313,6 +320,59 @@ Result<void> checkBreaklines(const Survey& survey, const PipelineConfig& config,
     const auto own = describeCrs(projection.wkt2());
     if (!own) return tl::unexpected(own.error());
     return checkBreaklineCrs(survey.breakline_crs, own->name, survey.breakline_file);
+}
+
+struct GridUncertainty {
+    InterpolationErrorModel model;
+    SurfaceUncertainty cells;
+};
+
+/// Standard errors of the DEM, from the tracks' covariances and from what left-out points say of
+/// interpolation.
+Result<GridUncertainty> uncertaintyOf(const Surface& surface, const std::vector<FusedRun>& runs,
+                                      const ElevationGrid& dem, const PipelineConfig& config,
+                                      const MapProjection& projection, Progress& progress,
+                                      const std::stop_token& stop) {
+    const auto points = usedInMap(surface.ground_points, projection);
+    if (!points) return tl::unexpected(points.error());
+    std::vector<TrackSigma> track;
+    for (const GroundPoint& point : surface.ground_points) {
+        if (point.state != GroundPointState::Used) continue;
+        const TrajectoryEpoch& epoch = runs[point.run].trajectory.epochs[point.epoch];
+        track.push_back(
+            {std::sqrt(epoch.covariance(2, 2)),
+             std::sqrt(0.5 * (point.sigma_e_m * point.sigma_e_m + point.sigma_n_m * point.sigma_n_m))});
+    }
+    PartialProgress learning(progress, 0.0, 0.8), propagating(progress, 0.8, 1.0);
+    auto model = learnInterpolationError(surface.model.method(), *points, {},
+                                         modelOptions(config).interpolation, config.seed, learning, stop);
+    if (!model) return tl::unexpected(model.error());
+    auto cells = surfaceUncertainty(dem, *points, track, *model, propagating, stop);
+    if (!cells) return tl::unexpected(cells.error());
+    return GridUncertainty{*model, std::move(*cells)};
+}
+
+UncertaintySummary summaryOf(const GridUncertainty& uncertainty) {
+    UncertaintySummary summary;
+    std::vector<double> sigmas;
+    for (const float sigma : uncertainty.cells.sigmas_m) {
+        if (!std::isnan(sigma)) sigmas.push_back(sigma);
+    }
+    std::sort(sigmas.begin(), sigmas.end());
+    if (!sigmas.empty()) {
+        summary.median_m = quantileOfSorted(sigmas, 0.5);
+        summary.error95_m = quantileOfSorted(sigmas, 0.95);
+    }
+    for (const std::uint8_t source : uncertainty.cells.sources) {
+        const auto kind = static_cast<CellSource>(source);
+        if (kind == CellSource::Measured) ++summary.measured;
+        if (kind == CellSource::Interpolated) ++summary.interpolated;
+        if (kind == CellSource::Extrapolated) ++summary.extrapolated;
+    }
+    summary.coefficients = uncertainty.model.coefficients;
+    summary.greatest_distance_m = uncertainty.model.greatest_distance_m;
+    summary.left_out = uncertainty.model.left_out;
+    return summary;
 }
 
 /// The sensors as they are against the marks, by the same measures as the fused track and its surface, so
@@ -424,9 +484,6 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
         if (!comparison) return tl::unexpected(comparison.error());
     }
     compareTrack(survey, *fused, config, is_fused ? Stage::Fused : Stage::BeforeFusion, tied, *comparison);
-    comparison->add(surfaceResiduals(survey.marks, heightOf(surface->model, *projection), Stage::Surface,
-                                     tied ? usedMarks(survey, config.fusion) : std::set<std::string>{}));
-
     Products products;
     products.used = config;
     products.used.surface.tin.longest_edge_m = ground.longest_edge_m;
@@ -436,10 +493,21 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     }
     const auto geometry = gridCovering(ground.mesh, products.used.surface.cell_m);
     if (!geometry) return tl::unexpected(blaming(survey, geometry.error()));
-    PartialProgress gridding(progress, 0.85, 1.0);
+    PartialProgress gridding(progress, 0.85, 0.9);
     auto dem = surface->model.grid(*geometry, gridding, stop);
     if (!dem) return tl::unexpected(dem.error());
     products.dem = std::move(dem->heights);
+    PartialProgress propagating(progress, 0.9, 1.0);
+    auto uncertainty =
+        uncertaintyOf(*surface, fused->runs, products.dem, config, *projection, propagating, stop);
+    if (!uncertainty && uncertainty.error().kind != ErrorKind::BadData) {
+        return tl::unexpected(uncertainty.error());
+    }
+    if (uncertainty) products.uncertainty = std::move(uncertainty->cells);
+    const SurfaceUncertainty* const sigmas = products.uncertainty ? &*products.uncertainty : nullptr;
+    comparison->add(surfaceResiduals(survey.marks, heightOf(surface->model, *projection, &*geometry, sigmas),
+                                     Stage::Surface,
+                                     tied ? usedMarks(survey, config.fusion) : std::set<std::string>{}));
     products.terrace_edges = ground.terrace_edges;
 
     products.ground_points = std::move(surface->ground_points);
@@ -463,6 +531,7 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
             fmt::format("no cell of {:g} m has its centre on the surface", products.dem.geometry.cell_m),
             survey.project_file, 0, "choose a smaller surface.cell_m");
     }
+    if (uncertainty) report.surface.uncertainty = summaryOf(*uncertainty);
     report.marks = survey.marks;
     report.residuals = std::move(comparison->residuals);
     report.tuning = config.tuning;
@@ -474,6 +543,11 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     report.limitations = sharedLimitations(fused->runs);
     for (const auto& more : {comparison->limitations, oddities(survey, report.runs)}) {
         report.limitations.insert(report.limitations.end(), more.begin(), more.end());
+    }
+    if (!uncertainty) {
+        report.limitations.push_back(fmt::format(
+            "The heights have no standard errors{}: {}.",
+            config.surface.multiband ? ", and there is no multiband file" : "", uncertainty.error().message));
     }
     report.warnings = survey.notes;
     report.warnings.insert(report.warnings.end(), projection->warnings().begin(),

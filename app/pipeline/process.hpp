@@ -7,6 +7,7 @@
 
 #include "app/pipeline/config.hpp"
 #include "io/output_folder.hpp"
+#include "mapping/surface_uncertainty.hpp"
 #include "mapping/terrace_edges.hpp"
 #include "survey/elevation_grid.hpp"
 #include "survey/ground_point.hpp"
@@ -21,11 +22,12 @@ namespace terrawalk {
 
 /// Everything that one run of the pipeline makes, in memory.
 struct Products {
-    std::vector<Trajectory> trajectories;    ///< one for each run of the survey, in its order
-    std::vector<GroundPoint> ground_points;  ///< of all runs, run by run; local ENU
-    TriangleMesh surface;                    ///< map frame
-    ElevationGrid dem;                       ///< map frame
-    std::vector<TerraceEdge> terrace_edges;  ///< found in the points; map frame
+    std::vector<Trajectory> trajectories;           ///< one for each run of the survey, in its order
+    std::vector<GroundPoint> ground_points;         ///< of all runs, run by run; local ENU
+    TriangleMesh surface;                           ///< map frame
+    ElevationGrid dem;                              ///< map frame
+    std::optional<SurfaceUncertainty> uncertainty;  ///< of the DEM, cell by cell
+    std::vector<TerraceEdge> terrace_edges;         ///< found in the points; map frame
     std::string crs_wkt2;
     SurveyReport report;
     PipelineConfig used;  ///< the configuration with every choice that the pipeline made filled in
@@ -41,9 +43,9 @@ struct Provenance {
     std::vector<std::string> command;  ///< arguments that decide the result, program name first
 };
 
-/// Writes dem.tif with its styles for QGIS, surface.ply, surface.obj, terrace_edges.gpkg where any were found,
-/// trajectory/*.csv, ground_points.csv, residuals.csv, report.json, report.html, figures.txt and manifest.json.
-/// The caller commits the folder.
+/// Writes dem.tif with its styles for QGIS, dem_uncertainty.tif, dem_density.tif, dem_source.tif, surface.ply,
+/// surface.obj, terrace_edges.gpkg where any were found, trajectory/*.csv, ground_points.csv, residuals.csv,
+/// report.json, report.html, figures.txt and manifest.json. The caller commits the folder.
 [[nodiscard]] Result<void> writeProducts(const Survey& survey, const Products& products,
                                          const Provenance& provenance, OutputFolder& folder,
                                          Progress& progress, std::stop_token stop);

@@ -81,6 +81,45 @@ DemDescription describeDem(const Products& products, const Survey& survey) {
                          {"HEIGHTS", products.report.surface.vertical_datum}}};
 }
 
+using Writer = std::function<Result<void>(const fs::path&)>;
+
+void addUncertainty(const Products& products, const Survey& survey,
+                    std::vector<std::pair<std::string, Writer>>& writers, const std::stop_token& stop) {
+    const auto raster = [&, stop](std::string quantity, std::string unit, auto values, bool classes) {
+        return [&products, &survey, stop, quantity = std::move(quantity), unit = std::move(unit),
+                values = std::move(values), classes](const fs::path& f) {
+            DemDescription description = describeDem(products, survey);
+            description.quantity = quantity;
+            description.unit = unit;
+            description.classes = classes;
+            return writeDem({products.dem.geometry, values()}, description, f, stop);
+        };
+    };
+    const auto whereKnown = [&products](const auto& cells) {
+        std::vector<float> values(cells.size(), kNoHeight);
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            if (!std::isnan(products.dem.heights_m[i])) values[i] = static_cast<float>(cells[i]);
+        }
+        return values;
+    };
+    const SurfaceUncertainty& u = *products.uncertainty;
+    writers.emplace_back("dem_uncertainty.tif",
+                         raster(
+                             "Uncertainty, 1 sigma", "m", [&u] { return u.sigmas_m; }, false));
+    writers.emplace_back(
+        "dem_density.tif",
+        raster(
+            "Ground points", "1/m2", [&u, whereKnown] { return whereKnown(u.density_per_m2); }, false));
+    writers.emplace_back("dem_source.tif", raster(
+                                               "Source: 1 measured, 2 interpolated, 3 extrapolated", "class",
+                                               [&u, whereKnown] { return whereKnown(u.sources); }, true));
+    if (products.used.surface.multiband) {
+        writers.emplace_back("dem_multiband.tif", [&](const fs::path& f) {
+            return writeDemWithUncertainty(products.dem, u.sigmas_m, describeDem(products, survey), f, stop);
+        });
+    }
+}
+
 }  // namespace
 
 Result<void> writeProducts(const Survey& survey, const Products& products, const Provenance& provenance,
@@ -92,7 +131,6 @@ Result<void> writeProducts(const Survey& survey, const Products& products, const
     report.inputs = std::move(*inputs);
 
     std::vector<std::string> files;
-    using Writer = std::function<Result<void>(const fs::path&)>;
     std::vector<std::pair<std::string, Writer>> writers{
         {"dem.tif",
          [&](const fs::path& f) {
@@ -138,6 +176,7 @@ Result<void> writeProducts(const Survey& survey, const Products& products, const
              return writeTextFile(summaryText(products), f);
          }},
     };
+    if (products.uncertainty) addUncertainty(products, survey, writers, stop);
     if (!products.terrace_edges.empty()) {
         writers.emplace_back("terrace_edges.gpkg", [&](const fs::path& f) {
             return writeBreaklines(softBreaklines(products.terrace_edges), "terrace_edges", products.crs_wkt2,

@@ -260,9 +260,10 @@ TEST(NearestSample, OfNothingIsNothing) {
 // ---------------------------------------------------------------------------------------------- surface
 
 TEST(SurfaceResiduals, AreExactOnAPlaneAndNameMarksOutside) {
-    const auto plane = [](const ControlMark& m) -> std::optional<double> {
+    const auto plane = [](const ControlMark& m) -> std::optional<SurfaceHeight> {
         if (m.enu_m.x() > 100.0) return std::nullopt;
-        return 0.5 * m.enu_m.x() - 0.25 * m.enu_m.y() + 1.0;
+        return SurfaceHeight{0.5 * m.enu_m.x() - 0.25 * m.enu_m.y() + 1.0,
+                             m.name == "on" ? kMissing : 0.3};
     };
     const auto out =
         surfaceResiduals({mark("on", {4, 8, 1.0}), mark("below", {4, 8, 0.5}), mark("outside", {200, 0, 0})},
@@ -273,6 +274,7 @@ TEST(SurfaceResiduals, AreExactOnAPlaneAndNameMarksOutside) {
     EXPECT_FALSE(out.residuals[0].used_by_estimator);
     EXPECT_TRUE(out.residuals[1].used_by_estimator);
     EXPECT_TRUE(std::isnan(out.residuals[0].sigma_enu_m.z()));
+    EXPECT_DOUBLE_EQ(out.residuals[1].sigma_enu_m.z(), std::hypot(0.3, mark("", {}).sigma_v_m));
     ASSERT_EQ(out.missing.size(), 1U);
     EXPECT_EQ(out.missing[0].mark, "outside");
 }
