@@ -31,7 +31,7 @@ TEST(Config, EveryParameterChangesItselfAndNothingElse) {
         std::replace(pointer.begin(), pointer.end(), '.', '/');
         bool changed = false;
         for (const char* candidate : {"true", "false", "1", "2", "3.5", "30", "0.3", "0.01", "raw", "ukf",
-                                      "always", "rtk", "never", "ekf"}) {
+                                      "always", "rtk", "never", "ekf", "kriging", "off"}) {
             PipelineConfig config;
             if (!applySetting(config, p.key + "=" + candidate)) continue;
             const json after = json::parse(toJson(config)).flatten();
