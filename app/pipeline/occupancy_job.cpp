@@ -31,10 +31,20 @@ bool isSoundHit(const GroundPoint& point) {
         case GroundPointState::Thinned:
         case GroundPointState::Tilted:
         case GroundPointState::Spike:
+        case GroundPointState::StatisticalOutlier:
+        case GroundPointState::Isolated:
+        case GroundPointState::AboveGround:
             return point.enu_m.allFinite();
-        default:
+        case GroundPointState::NoRange:
+        case GroundPointState::RangeTooShort:
+        case GroundPointState::RangeTooLong:
+        case GroundPointState::WeakReturn:
+        case GroundPointState::Saturated:
+        case GroundPointState::PositionUnsure:
+        case GroundPointState::RunLeftOut:
             return false;
     }
+    return false;
 }
 
 class RayMaker {

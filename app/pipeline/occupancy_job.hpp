@@ -39,9 +39,9 @@ struct OccupancyOutcome {
 /// Writes occupancy.bt, occupancy.ot, free_height.tif, obstacle_height.tif and occupancy.json. A ray runs
 /// from the array's place in the trajectory to the ground point of the same time: the lever arm of the range
 /// finder is not in the output folder, so that its first centimetres are off by it. Hits count that the
-/// pipeline used, thinned, or left out as spike or for the array's tilt; those for a bad range or place do
-/// not. Errors: BadData; Usage for voxels that the octree cannot hold; System when the memory does not
-/// suffice; Cancelled.
+/// pipeline used, thinned, or left out as spike, outlier, plant or for the array's tilt; those for a bad
+/// range or place do not. Errors: BadData; Usage for voxels that the octree cannot hold; System when the
+/// memory does not suffice; Cancelled.
 [[nodiscard]] Result<OccupancyOutcome> mapOccupancy(const OccupancyRequest& request, Progress& progress,
                                                     std::stop_token stop);
 
