@@ -93,7 +93,7 @@ struct SpaceOccupancy::Impl {
     /// Shows `take` the voxels above the ground layer with the height of their bottoms above ground, upwards,
     /// until it has seen enough.
     template <class Take>
-    void climb(const Eigen::Vector2d& at_m, double ground_m, const AboveGroundOptions& above,
+    void climb(const Eigen::Vector2d& at_m, double ground_m, const FreeHeightOptions& above,
                Take take) const {
         if (std::isnan(ground_m)) return;
         const double origin_m = options.origin_m.z();
@@ -164,7 +164,7 @@ Result<std::string> SpaceOccupancy::fullTree() const {
 }
 
 Result<SpaceAboveGround> SpaceOccupancy::aboveGround(const ElevationGrid& ground,
-                                                     const AboveGroundOptions& options, Progress& progress,
+                                                     const FreeHeightOptions& options, Progress& progress,
                                                      std::stop_token stop) const {
     const GridGeometry& g = ground.geometry;
     PartialProgress first_half(progress, 0.0, 0.5);

@@ -39,7 +39,7 @@ struct SpaceAboveGround {
     /// NaN where none is known.
     ElevationGrid obstacle_height;
 };
-struct AboveGroundOptions {
+struct FreeHeightOptions {
     double ground_layer_m = 0.3;  ///< voxels with their bottom lower than this above ground count as ground
     double greatest_height_m = 5.0;
 };
@@ -70,7 +70,7 @@ class SpaceOccupancy {
     /// For each cell of the ground with a height, over its whole area. Runs on all of TBB's threads; the same
     /// bytes with any number of them. Errors: Cancelled.
     [[nodiscard]] Result<SpaceAboveGround> aboveGround(const ElevationGrid& ground,
-                                                       const AboveGroundOptions& options, Progress& progress,
+                                                       const FreeHeightOptions& options, Progress& progress,
                                                        std::stop_token stop) const;
 
   private:

@@ -19,15 +19,21 @@ namespace {
 constexpr std::size_t kLeastPoints = 30;
 constexpr std::size_t kMostForetold = 20'000;
 constexpr std::size_t kParts = 10;
-constexpr std::array<double, 4> kBlockSpacings{0.0, 2.0, 5.0, 12.0};  // 0: points drawn by lot
-constexpr std::size_t kCarriers = 4;                                  // points that carry a cell
+constexpr std::array<double, 3> kBlockSpacings{0.0, 2.0, 5.0};  // 0: points drawn by lot
+// Of the noise in a point foretold and held against one more: three points at the corners of a triangle, with
+// weights all over it, have half the variance of one on average.
+constexpr double kSurfaceShare = 0.5 / 1.5;
+constexpr std::size_t kCarriers = 4;  // points that carry a cell
 constexpr double kDensitySide_m = 2.0;
 
-using Features = Eigen::Vector4d;
+constexpr Eigen::Index kTerms = 5;
+using Features = Eigen::Matrix<double, kTerms, 1>;
+using Normal = Eigen::Matrix<double, kTerms, kTerms>;
 
 Features featuresOf(double distance_m, double slope) {
     const double s2 = slope * slope;
-    return {1.0, distance_m, s2 * distance_m, s2 * distance_m * distance_m};
+    const double d2 = distance_m * distance_m;
+    return {1.0, distance_m, d2, s2 * distance_m, s2 * d2};
 }
 
 struct Foretold {
@@ -121,14 +127,14 @@ Result<std::vector<Foretold>> foretell(InterpolationMethod method,
     return foretold;
 }
 
-// Least squares with weights, coefficients not below zero: of the sixteen ways to set some of them to zero,
+// Least squares with weights, coefficients not below zero: of the ways to set some of them to zero,
 // the one that fits best.
-Features nonNegativeFit(const Eigen::Matrix4d& normal, const Features& right) {
+Features nonNegativeFit(const Normal& normal, const Features& right) {
     Features best = Features::Zero();
     double least = 0.0;  // of  x' N x - 2 x' r
-    for (unsigned chosen = 1; chosen < 16; ++chosen) {
+    for (unsigned chosen = 1; chosen < 1U << kTerms; ++chosen) {
         std::vector<Eigen::Index> free;
-        for (Eigen::Index k = 0; k < 4; ++k) {
+        for (Eigen::Index k = 0; k < kTerms; ++k) {
             if ((chosen >> k) & 1U) free.push_back(k);
         }
         const Eigen::MatrixXd n = normal(free, free);
@@ -150,9 +156,9 @@ Features nonNegativeFit(const Eigen::Matrix4d& normal, const Features& right) {
 Features fitModel(const std::vector<Foretold>& foretold) {
     double mean = 0.0;
     for (const Foretold& f : foretold) mean += f.squared_error_m2 / static_cast<double>(foretold.size());
-    Features x(std::max(mean, 1e-12), 0.0, 0.0, 0.0);
+    Features x = std::max(mean, 1e-12) * Features::Unit(0);
     for (int round = 0; round < 8; ++round) {
-        Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+        Normal normal = Normal::Zero();
         Features right = Features::Zero();
         for (const Foretold& f : foretold) {
             const double expected = std::max(x.dot(f.features), 1e-3 * mean + 1e-12);
@@ -220,8 +226,8 @@ std::vector<float> densityOf(const GridGeometry& g, const std::vector<std::uint3
 
 double InterpolationErrorModel::variance_m2(double distance_m, double slope) const {
     const Features f = featuresOf(distance_m, slope);
-    double variance = 0.5 * coefficients[0];
-    for (std::size_t k = 1; k < 4; ++k) variance += coefficients[k] * f[static_cast<Eigen::Index>(k)];
+    double variance = kSurfaceShare * coefficients[0];
+    for (Eigen::Index k = 1; k < kTerms; ++k) variance += coefficients[static_cast<std::size_t>(k)] * f[k];
     return variance;
 }
 
@@ -266,7 +272,7 @@ Result<InterpolationErrorModel> learnInterpolationError(InterpolationMethod meth
     }
     const Features x = fitModel(foretold);
     InterpolationErrorModel model;
-    for (std::size_t k = 0; k < 4; ++k) model.coefficients[k] = x[static_cast<Eigen::Index>(k)];
+    std::copy(x.begin(), x.end(), model.coefficients.begin());
     for (const Foretold& f : foretold) {
         model.greatest_distance_m = std::max(model.greatest_distance_m, f.distance_m);
         model.left_out.add(std::sqrt(f.squared_error_m2), std::sqrt(x.dot(f.features)));

@@ -17,12 +17,13 @@ namespace terrawalk {
 
 /// By how much heights foretold from the points around are off, learnt from points that were left out:
 ///
-///     variance(d, s) = c0 + c1 d + c2 s^2 d + c3 s^2 d^2      d: distance to the nearest point, s: slope
+///     variance(d, s) = c0 + c1 d + c2 d^2 + (c3 d + c4 d^2) s^2      d: distance to the nearest point, s:
+///     slope
 ///
-/// c0 is twice the noise of a point, in what was foretold and in what it was held against. No coefficient is
-/// below zero. Lengths in the unit of the points.
+/// c0 holds the noise of a point twice, in what was foretold and in what it was held against. No coefficient
+/// is below zero. Lengths in the unit of the points.
 struct InterpolationErrorModel {
-    std::array<double, 4> coefficients{};
+    std::array<double, 5> coefficients{};
     double greatest_distance_m = 0.0;  ///< of a point left out: beyond it the model is a guess
     SigmaCoverage left_out;            ///< points that were foretold, against the model that they taught
 
@@ -30,7 +31,7 @@ struct InterpolationErrorModel {
     [[nodiscard]] double variance_m2(double distance_m, double slope) const;
 };
 
-/// Leaves points out in parts drawn by lot and in blocks of three sizes, foretells them by the method from
+/// Leaves points out in parts drawn by lot and in blocks of two sizes, foretells them by the method from
 /// the rest, and fits the model to the squared errors by least squares on their relative scale, coefficients
 /// not below zero. At most 20 000 points are foretold of each. The same for any order of the points and
 /// number of threads. Errors: BadData for fewer than 30 points; as fitInterpolator(); Cancelled.

@@ -163,8 +163,9 @@ struct UncertaintySummary {
     double median_m = 0.0;
     double error95_m = 0.0;                                        ///< 95 % of the cells have a smaller sigma
     std::size_t measured = 0, interpolated = 0, extrapolated = 0;  ///< cells, see CellSource
-    /// Squared error of interpolation at distance d and slope s: c0 / 2 + c1 d + c2 s^2 d + c3 s^2 d^2.
-    std::array<double, 4> coefficients{};
+    /// Squared error of interpolation at distance d and slope s: c0 / 3 + c1 d + c2 d^2 + (c3 d + c4 d^2)
+    /// s^2.
+    std::array<double, 5> coefficients{};
     double greatest_distance_m = 0.0;  ///< from a point, of the points left out
     SigmaCoverage left_out;            ///< the points left out against the model that they taught
 };

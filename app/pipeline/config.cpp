@@ -644,7 +644,7 @@ static_assert(sizeof(FusionOptions) == 1224, "add the new option to fusionParame
 static_assert(sizeof(AukfOptions) == 168, "add the new option to aukfParameters()");
 static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
 static_assert(sizeof(PointCleaningOptions) == 104, "add the new option to cleaningParameters()");
-static_assert(sizeof(SurfaceOptions) == 152, "add the new option to surfaceParameters()");
+static_assert(sizeof(SurfaceOptions) == 160, "add the new option to surfaceParameters()");
 
 const std::vector<Parameter>& parameters() {
     static const std::vector<Parameter> kParameters = [] {

@@ -17,7 +17,7 @@ struct OccupancyRequest {
     std::filesystem::path input;   ///< folder that `process` wrote
     std::filesystem::path output;  ///< folder; empty: INPUT-occupancy
     OccupancyOptions options;      ///< the origin is set by the job
-    AboveGroundOptions above;
+    FreeHeightOptions above;
 };
 
 struct OccupancyOutcome {

@@ -38,20 +38,14 @@ Comparison compareWith(const std::vector<MapMark>& marks, const DemFile& dem,
         place[mark.name] = m.map;
         c.marks.push_back(std::move(mark));
     }
-    c.found = surfaceResiduals(c.marks,
-                               [&](const ControlMark& mark) {
-                                   auto height = bilinearAt(dem.grid, place.at(mark.name).head<2>());
-                                   if (height) *height *= metres;
-                                   return height;
-                               },
-                               Stage::Surface, {});
-    for (Residual& residual : c.found.residuals) {
-        if (!sigmas) continue;
-        const auto sigma = bilinearAt(*sigmas, place.at(residual.mark).head<2>());
-        const auto mark = std::find_if(c.marks.begin(), c.marks.end(),
-                                       [&](const ControlMark& m) { return m.name == residual.mark; });
-        if (sigma) residual.sigma_enu_m.z() = std::hypot(metres * *sigma, mark->sigma_v_m);
-    }
+    const auto surface = [&](const ControlMark& mark) -> std::optional<SurfaceHeight> {
+        const Eigen::Vector2d at = place.at(mark.name).head<2>();
+        const auto height = bilinearAt(dem.grid, at);
+        if (!height) return std::nullopt;
+        const auto sigma = sigmas ? bilinearAt(*sigmas, at) : std::nullopt;
+        return SurfaceHeight{*height * metres, sigma ? *sigma * metres : kMissing};
+    };
+    c.found = surfaceResiduals(c.marks, surface, Stage::Surface, {});
     return c;
 }
 
