@@ -503,7 +503,11 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     if (!uncertainty && uncertainty.error().kind != ErrorKind::BadData) {
         return tl::unexpected(uncertainty.error());
     }
-    if (uncertainty) products.uncertainty = std::move(uncertainty->cells);
+    std::optional<UncertaintySummary> uncertainty_summary;
+    if (uncertainty) {
+        uncertainty_summary = summaryOf(*uncertainty);
+        products.uncertainty = std::move(uncertainty->cells);
+    }
     const SurfaceUncertainty* const sigmas = products.uncertainty ? &*products.uncertainty : nullptr;
     comparison->add(surfaceResiduals(survey.marks, heightOf(surface->model, *projection, &*geometry, sigmas),
                                      Stage::Surface,
@@ -531,7 +535,7 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
             fmt::format("no cell of {:g} m has its centre on the surface", products.dem.geometry.cell_m),
             survey.project_file, 0, "choose a smaller surface.cell_m");
     }
-    if (uncertainty) report.surface.uncertainty = summaryOf(*uncertainty);
+    report.surface.uncertainty = uncertainty_summary;
     report.marks = survey.marks;
     report.residuals = std::move(comparison->residuals);
     report.tuning = config.tuning;
