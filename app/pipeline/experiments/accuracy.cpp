@@ -14,6 +14,7 @@
 
 #include "app/pipeline/config.hpp"
 #include "app/pipeline/experiments/experiments.hpp"
+#include "app/pipeline/experiments/planned_surveys.hpp"
 
 namespace terrawalk {
 
@@ -63,22 +64,9 @@ Result<std::vector<Method>> methods() {
 }
 
 /// One simulated survey and what each method made of it.
-struct Trial {
-    FaultLevel faults = FaultLevel::None;
-    bool ties = true;
-    std::uint64_t seed = 0;
+struct Trial : PlannedSurvey {
     std::vector<Result<AccuracyMeasures>> measured;
 };
-
-std::vector<Trial> plannedTrials(std::uint64_t first_seed, std::uint64_t surveys) {
-    std::vector<Trial> trials;
-    for (const auto& [level, text] : kFaultLevelNames) {
-        for (const bool ties : {true, false}) {
-            for (std::uint64_t k = 0; k < surveys; ++k) trials.push_back({level, ties, first_seed + k, {}});
-        }
-    }
-    return trials;
-}
 
 void measure(Trial& trial, const std::vector<Method>& methods, const std::stop_token& stop) {
     SilentProgress silent;
@@ -91,10 +79,6 @@ void measure(Trial& trial, const std::vector<Method>& methods, const std::stop_t
             trial.measured.emplace_back(tl::unexpected(simulated.error()));
         }
     }
-}
-
-std::string tiesText(bool ties) {
-    return ties ? "with ties" : "without ties";
 }
 
 /// The rows of one method in the trials of one level, and their line in the summary.
@@ -155,7 +139,8 @@ Result<ExperimentReport> runAccuracy(const ExperimentOptions& options, Progress&
     if (!compared) return tl::unexpected(compared.error());
     const std::uint64_t surveys = options.quick ? 2 : 8;
     const std::uint64_t first_seed = 100 * options.seed + 1;
-    std::vector<Trial> trials = plannedTrials(first_seed, surveys);
+    std::vector<Trial> trials;
+    for (const PlannedSurvey& planned : plannedSurveys(first_seed, surveys)) trials.push_back({planned, {}});
     std::atomic<std::size_t> done = 0;
     tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
         if (stop.stop_requested()) return;

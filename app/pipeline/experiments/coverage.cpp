@@ -10,18 +10,16 @@
 
 #include "app/pipeline/accuracy_measure.hpp"
 #include "app/pipeline/experiments/experiments.hpp"
+#include "app/pipeline/experiments/planned_surveys.hpp"
 
 namespace terrawalk {
 
 namespace {
 
 // Distance over which errors of the DEM hang together: some passes of the walk.
-constexpr double kErrorRange_m = 20.0;
+constexpr double kErrorRange_m = 15.0;
 
-struct Trial {
-    FaultLevel faults = FaultLevel::None;
-    bool ties = true;
-    std::uint64_t seed = 0;
+struct Trial : PlannedSurvey {
     Result<DemCoverage> coverage = cancelled();
 };
 
@@ -31,16 +29,6 @@ double withinShare(const SigmaCoverage& c) {
 
 double volumeRatio(const DemCoverage& c) {
     return c.volume_error_m3 / c.volume_sigma_m3;
-}
-
-std::vector<Trial> plannedTrials(std::uint64_t first_seed, std::uint64_t surveys) {
-    std::vector<Trial> trials;
-    for (const auto& [level, text] : kFaultLevelNames) {
-        for (const bool ties : {true, false}) {
-            for (std::uint64_t k = 0; k < surveys; ++k) trials.push_back({level, ties, first_seed + k});
-        }
-    }
-    return trials;
 }
 
 void measure(Trial& trial, const std::stop_token& stop) {
@@ -60,7 +48,10 @@ Result<ExperimentReport> runCoverage(const ExperimentOptions& options, Progress&
                                      std::stop_token stop) {
     const std::uint64_t surveys = options.quick ? 2 : 8;
     const std::uint64_t first_seed = 100 * options.seed + 1;
-    std::vector<Trial> trials = plannedTrials(first_seed, surveys);
+    std::vector<Trial> trials;
+    for (const PlannedSurvey& planned : plannedSurveys(first_seed, surveys)) {
+        trials.push_back({planned, cancelled()});
+    }
     std::atomic<std::size_t> done = 0;
     tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
         if (stop.stop_requested()) return;
@@ -84,7 +75,7 @@ Result<ExperimentReport> runCoverage(const ExperimentOptions& options, Progress&
                               "volume N", "surveys"};
     for (std::size_t first = 0; first < trials.size(); first += surveys) {
         const std::string level(name(trials[first].faults));
-        const std::string ties = trials[first].ties ? "with ties" : "without ties";
+        const std::string ties = tiesText(trials[first].ties);
         PlotSeries dots{.name = "DEM", .look = SeriesLook::Points};
         double within = 0.0, square = 0.0, good = 0.0;
         SigmaCoverage volumes;
