@@ -6,6 +6,7 @@ set(allowed_mapping mapping survey)
 set(allowed_io io survey)
 set(allowed_app/pipeline app/pipeline survey fusion mapping io resources)
 set(allowed_app/cli app/cli app/pipeline survey)
+set(allowed_app/gui app/gui app/pipeline survey)
 
 # Third-party header prefixes and the only folders that may name them.
 set(third_party
@@ -13,7 +14,7 @@ set(third_party
     "CLI/=app/cli" "spdlog/=app/pipeline" "openssl/=io" "GeographicLib/=survey" "pagmo/=fusion" "Q=app/gui")
 
 set(breaches 0)
-foreach(folder survey fusion mapping io app/pipeline app/cli)
+foreach(folder survey fusion mapping io app/pipeline app/cli app/gui)
     file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/${folder}/*.hpp ${SOURCE}/${folder}/*.cpp)
     file(READ ${SOURCE}/${folder}/CMakeLists.txt listed)
     foreach(file ${files})

@@ -37,6 +37,25 @@ bool liesIn(const fs::path& file, const fs::path& folder) {
            std::mismatch(trimmed.begin(), trimmed.end(), inner.begin(), inner.end()).first == trimmed.end();
 }
 
+/// A folder for the products, apart from the survey that they come from.
+Result<OutputFolder> outputFolder(const fs::path& project_file, const fs::path& output) {
+    if (liesIn(project_file, output)) {
+        return usageError(
+            fmt::format("the survey {} lies in the output folder {}", project_file.string(), output.string()),
+            "choose another folder for the output");
+    }
+    return OutputFolder::create(output);
+}
+
+Result<void> writeAndCommit(const Survey& survey, const Products& products, const Provenance& provenance,
+                            OutputFolder& folder, Progress& progress, const std::stop_token& stop) {
+    if (auto done = writeProducts(survey, products, provenance, folder, progress, stop); !done) return done;
+    if (stop.stop_requested()) return cancelled();
+    if (auto done = folder.commit(); !done) return done;
+    progress.report(1.0, "done");
+    return {};
+}
+
 /// True heights over everything that was walked, in the local frame.
 ElevationGrid truthGrid(const SimulatedSurvey& simulated, double cell_m) {
     Eigen::Vector2d least = Eigen::Vector2d::Zero();
@@ -132,13 +151,7 @@ Result<Products> processSurvey(const fs::path& path, const PipelineConfig& confi
                                const Provenance& provenance, const fs::path& output, Progress& progress,
                                std::stop_token stop, const std::optional<TuneOptions>& tuning) {
     // A folder that may not be replaced is said at once, not after the work.
-    const fs::path project_file = projectFileOf(path);
-    if (liesIn(project_file, output)) {
-        return usageError(
-            fmt::format("the survey {} lies in the output folder {}", project_file.string(), output.string()),
-            "choose another folder for the output");
-    }
-    auto folder = OutputFolder::create(output);
+    auto folder = outputFolder(projectFileOf(path), output);
     if (!folder) return tl::unexpected(folder.error());
     // A search takes far longer than all the rest.
     const double search = tuning ? 0.9 : 0.0;
@@ -159,13 +172,17 @@ Result<Products> processSurvey(const fs::path& path, const PipelineConfig& confi
     const std::vector<UsedSetting> settings = settingsReport(config, products->used);
     std::copy(settings.begin(), settings.end(), products->report.settings.begin());
     PartialProgress writing(progress, after(0.8), 1.0);
-    if (auto done = writeProducts(*survey, *products, provenance, *folder, writing, stop); !done) {
+    if (auto done = writeAndCommit(*survey, *products, provenance, *folder, writing, stop); !done) {
         return tl::unexpected(done.error());
     }
-    if (stop.stop_requested()) return cancelled();
-    if (auto done = folder->commit(); !done) return tl::unexpected(done.error());
-    progress.report(1.0, "done");
     return products;
+}
+
+Result<void> saveProducts(const Survey& survey, const Products& products, const Provenance& provenance,
+                          const fs::path& output, Progress& progress, std::stop_token stop) {
+    auto folder = outputFolder(survey.project_file, output);
+    if (!folder) return tl::unexpected(folder.error());
+    return writeAndCommit(survey, products, provenance, *folder, progress, stop);
 }
 
 Result<void> simulateSurveyFolder(const SimulationOptions& options, const fs::path& output,

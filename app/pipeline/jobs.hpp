@@ -34,6 +34,12 @@ namespace terrawalk {
                                              std::stop_token stop,
                                              const std::optional<TuneOptions>& tuning = {});
 
+/// Writes products that process() made of this survey into `output`: the same files as processSurvey(), byte
+/// for byte. Errors: Usage for a folder that holds something else, or the survey itself; System; Cancelled.
+[[nodiscard]] Result<void> saveProducts(const Survey& survey, const Products& products,
+                                        const Provenance& provenance, const std::filesystem::path& output,
+                                        Progress& progress, std::stop_token stop);
+
 /// Writes a simulated survey with its truth: survey.json, control.csv, logs/, truth/ and manifest.json.
 [[nodiscard]] Result<void> simulateSurveyFolder(const SimulationOptions& options,
                                                 const std::filesystem::path& output, Progress& progress,

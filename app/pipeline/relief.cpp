@@ -83,6 +83,10 @@ std::vector<Colour> reliefRamp() {
     return parseRamp(resources::relief_ramp);
 }
 
+std::vector<Colour> sequentialRamp() {
+    return parseRamp(resources::sequential_ramp);
+}
+
 Result<ReliefPicture> reliefPicture(const SurfaceModel& surface, const MapProjection& projection,
                                     const std::vector<GroundPoint>& ground_points) {
     ElevationGrid grid{pictureFrame(ground_points), {}};

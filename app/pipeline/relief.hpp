@@ -19,5 +19,7 @@ namespace terrawalk {
 
 /// Colours of heights, from the lowest to the highest.
 [[nodiscard]] std::vector<Colour> reliefRamp();
+/// Colours of any other quantity, such as a sigma.
+[[nodiscard]] std::vector<Colour> sequentialRamp();
 
 }  // namespace terrawalk

@@ -1,0 +1,194 @@
+#include "app/gui/map_furniture.hpp"
+
+#include <QCoreApplication>
+#include <QLinearGradient>
+#include <QPainterPath>
+#include <cmath>
+#include <vector>
+
+#include "app/gui/round_numbers.hpp"
+#include "app/pipeline/relief.hpp"
+
+namespace terrawalk::gui {
+
+namespace {
+
+constexpr double kMargin_px = 16.0;
+constexpr double kPadding_px = 8.0;
+constexpr double kRampHeight_px = 96.0;
+constexpr double kRampWidth_px = 16.0;
+
+QString translated(const char* text) {
+    return QCoreApplication::translate("MapFurniture", text);
+}
+
+void drawPanel(QPainter& painter, const QRectF& box, const QPalette& palette) {
+    QColor ground = palette.color(QPalette::Base), edge = palette.color(QPalette::Mid);
+    ground.setAlpha(225);
+    edge.setAlpha(120);
+    painter.setPen(QPen(edge, 1.0));
+    painter.setBrush(ground);
+    painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), 4, 4);
+}
+
+void drawScaleBar(QPainter& painter, const MapTransform& transform, const QPalette& palette) {
+    const double length_m = roundBelow(140.0 / transform.pixels_per_m);
+    const double length_px = length_m * transform.pixels_per_m;
+    const QFontMetricsF metrics(painter.font());
+    const double height = metrics.height() + 8 + 2 * kPadding_px - 2;
+    const QString label = shortLength(length_m);
+    const double width = length_px + metrics.horizontalAdvance(label) / 2 + 12 + 2 * kPadding_px;
+    const QRectF box(kMargin_px, transform.size_px.height() - kMargin_px - height, width, height);
+    drawPanel(painter, box, palette);
+    const double left = box.left() + kPadding_px + 4, top = box.bottom() - kPadding_px - 6;
+    painter.setPen(QPen(palette.color(QPalette::Text), 1.0));
+    for (int part = 0; part < 2; ++part) {
+        painter.setBrush(part == 0 ? palette.color(QPalette::Text) : palette.color(QPalette::Base));
+        painter.drawRect(QRectF(left + part * length_px / 2, top, length_px / 2, 5));
+    }
+    const double base = top - 4;
+    painter.drawText(QPointF(left - 2, base), "0");
+    painter.drawText(QPointF(left + length_px - metrics.horizontalAdvance(label) / 2, base), label);
+}
+
+/// Returns its lower end.
+double drawNorthArrow(QPainter& painter, const MapTransform& transform, const QPalette& palette) {
+    const QRectF box(transform.size_px.width() - kMargin_px - 40, kMargin_px, 40, 56);
+    drawPanel(painter, box, palette);
+    const QPointF tip(box.center().x(), box.top() + 7), foot(box.center().x(), tip.y() + 18);
+    painter.setPen(QPen(palette.color(QPalette::Text), 1.0));
+    painter.setBrush(palette.color(QPalette::Text));
+    painter.drawPolygon(QPolygonF({tip, foot + QPointF(-7, 6), foot}));
+    painter.setBrush(palette.color(QPalette::Base));
+    painter.drawPolygon(QPolygonF({tip, foot + QPointF(7, 6), foot}));
+    painter.drawText(QRectF(box.left(), box.bottom() - 24, box.width(), 20), Qt::AlignCenter, "N");
+    return box.bottom();
+}
+
+struct LegendPart {
+    QString title;
+    RasterLegend legend;
+};
+
+QString value(double number, double range) {
+    return QString::number(number, 'f', range < 1.0 ? 2 : range < 100.0 ? 1 : 0);
+}
+
+QString titleOf(RasterLayer layer) {
+    switch (layer) {
+        case RasterLayer::Height:
+            return translated("Height");
+        case RasterLayer::Uncertainty:
+            return translated("Height, 1 σ");
+        case RasterLayer::Density:
+            return translated("Density");
+        case RasterLayer::Source:
+            return translated("Source");
+        case RasterLayer::None:
+            break;
+    }
+    return {};
+}
+
+std::vector<LegendPart> legendParts(const MapScene& scene) {
+    std::vector<LegendPart> parts;
+    if (scene.raster && !scene.raster->levels.empty()) {
+        parts.push_back({titleOf(scene.raster->layer), scene.raster->legend});
+    }
+    const double greatest_m = greatestSigma(scene);
+    if (greatest_m > 0.0) {
+        std::vector<QColor> ramp;
+        for (const Colour& c : sequentialRamp()) ramp.emplace_back(c[0], c[1], c[2]);
+        parts.push_back({scene.colouring == TrackColouring::SigmaPlan ? translated("Track, plan 1 σ")
+                                                                      : translated("Track, height 1 σ"),
+                         {ramp, 0.0, greatest_m, true, "m", {}}});
+    }
+    return parts;
+}
+
+double heightOf(const LegendPart& part, double line_px) {
+    const double body = part.legend.classes.isEmpty()
+                            ? kRampHeight_px + line_px * 0.6
+                            : (line_px + 4) * static_cast<double>(part.legend.classes.size());
+    return line_px + 8 + body + 2 * kPadding_px;
+}
+
+double widthOf(const LegendPart& part, const QFontMetricsF& metrics) {
+    double width = metrics.horizontalAdvance(part.title + " (" + part.legend.unit + ")");
+    for (const QString& c : part.legend.classes) {
+        width = std::max(width, metrics.horizontalAdvance(c) + kRampWidth_px + 8);
+    }
+    return std::max(width + 2 * kPadding_px, 96.0);
+}
+
+void drawLegend(QPainter& painter, const LegendPart& part, const QRectF& box, const QPalette& palette) {
+    drawPanel(painter, box, palette);
+    const QFontMetricsF metrics(painter.font());
+    const double left = box.left() + kPadding_px;
+    double y = box.top() + kPadding_px + metrics.ascent();
+    painter.setPen(palette.color(QPalette::Text));
+    const QString unit = part.legend.unit.isEmpty() ? QString() : " (" + part.legend.unit + ")";
+    painter.drawText(QPointF(left, y), part.title + unit);
+    y += 8;
+    if (!part.legend.classes.isEmpty()) {
+        for (qsizetype i = 0; i < part.legend.classes.size(); ++i) {
+            const QRectF patch(left, y + 2, kRampWidth_px, metrics.height() - 2);
+            painter.fillRect(patch, part.legend.ramp[static_cast<std::size_t>(i)]);
+            painter.drawText(QPointF(left + kRampWidth_px + 8, y + metrics.ascent()), part.legend.classes[i]);
+            y += metrics.height() + 4;
+        }
+        return;
+    }
+    const QRectF bar(left, y + metrics.height() * 0.3, kRampWidth_px, kRampHeight_px);
+    QLinearGradient gradient(bar.bottomLeft(), bar.topLeft());
+    const auto& ramp = part.legend.ramp;
+    for (std::size_t i = 0; i < ramp.size(); ++i) {
+        gradient.setColorAt(static_cast<double>(i) / static_cast<double>(ramp.size() - 1), ramp[i]);
+    }
+    painter.fillRect(bar, gradient);
+    const double range = part.legend.high - part.legend.low;
+    for (int tick = 0; tick <= 4; ++tick) {
+        const double share = tick / 4.0, at = bar.bottom() - share * bar.height();
+        painter.setPen(palette.color(QPalette::Text));
+        painter.drawLine(QPointF(bar.right(), at), QPointF(bar.right() + 4, at));
+        const QString sign = tick == 4 && part.legend.open_above ? "≥ " : "";
+        painter.drawText(QPointF(bar.right() + 8, at + metrics.ascent() * 0.4),
+                         sign + value(part.legend.low + share * range, range));
+    }
+}
+
+void drawVectorNote(QPainter& painter, const MapScene& scene, const MapTransform& transform,
+                    const QPalette& palette) {
+    const double scale = vectorScale(scene, transform);
+    if (scale <= 0.0) return;
+    const QString note = translated("errors at marks %1 times as long").arg(QString::number(scale, 'g', 3));
+    const QFontMetricsF metrics(painter.font());
+    const double width = metrics.horizontalAdvance(note) + 24 + 3 * kPadding_px;
+    const double height = metrics.height() + kPadding_px;
+    const QRectF box(transform.size_px.width() - kMargin_px - width,
+                     transform.size_px.height() - kMargin_px - height, width, height);
+    drawPanel(painter, box, palette);
+    const double y = box.center().y();
+    painter.setPen(QPen(QColor(200, 30, 60), 2.0));
+    painter.drawLine(QPointF(box.left() + kPadding_px, y), QPointF(box.left() + kPadding_px + 24, y));
+    painter.setPen(palette.color(QPalette::Text));
+    painter.drawText(box.adjusted(24 + 2 * kPadding_px, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft, note);
+}
+
+}  // namespace
+
+void drawFurniture(QPainter& painter, const MapScene& scene, const MapTransform& transform,
+                   const QPalette& palette) {
+    painter.setRenderHint(QPainter::Antialiasing);
+    drawScaleBar(painter, transform, palette);
+    double top = drawNorthArrow(painter, transform, palette) + 8;
+    const QFontMetricsF metrics(painter.font());
+    for (const LegendPart& part : legendParts(scene)) {
+        const double width = widthOf(part, metrics), height = heightOf(part, metrics.height());
+        drawLegend(painter, part, {transform.size_px.width() - kMargin_px - width, top, width, height}, palette);
+        top += height + 8;
+    }
+    drawVectorNote(painter, scene, transform, palette);
+}
+
+}  // namespace terrawalk::gui

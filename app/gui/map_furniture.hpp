@@ -1,0 +1,16 @@
+#pragma once
+
+#include <QPainter>
+#include <QPalette>
+
+#include "app/gui/map_scene.hpp"
+#include "app/gui/map_transform.hpp"
+
+namespace terrawalk::gui {
+
+/// Scale bar at the lower left, north arrow at the upper right, legend below it: each on a panel that leaves
+/// any map readable.
+void drawFurniture(QPainter& painter, const MapScene& scene, const MapTransform& transform,
+                   const QPalette& palette);
+
+}  // namespace terrawalk::gui

@@ -1,0 +1,167 @@
+#include "app/gui/raster_picture.hpp"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "app/pipeline/relief.hpp"
+
+namespace terrawalk::gui {
+
+namespace {
+
+constexpr int kSmallestOverview_px = 256;
+
+QString translated(const char* text) {
+    return QCoreApplication::translate("RasterPicture", text);
+}
+
+std::vector<QColor> colours(const std::vector<Colour>& ramp) {
+    std::vector<QColor> list;
+    for (const Colour& c : ramp) list.emplace_back(c[0], c[1], c[2]);
+    return list;
+}
+
+std::vector<QImage> withOverviews(QImage full) {
+    std::vector<QImage> levels{std::move(full)};
+    while (std::max(levels.back().width(), levels.back().height()) > kSmallestOverview_px) {
+        const QSize half((levels.back().width() + 1) / 2, (levels.back().height() + 1) / 2);
+        levels.push_back(levels.back().scaled(half, Qt::IgnoreAspectRatio, Qt::SmoothTransformation));
+    }
+    return levels;
+}
+
+QImage emptyImage(const GridGeometry& g) {
+    QImage image(static_cast<int>(g.columns), static_cast<int>(g.rows), QImage::Format_ARGB32_Premultiplied);
+    image.fill(Qt::transparent);
+    return image;
+}
+
+RasterPicture heights(const Products& products) {
+    const std::vector<Colour> ramp = reliefRamp();
+    const ReliefImage relief = shadedRelief(products.dem, ramp);
+    const QImage image(relief.rgba.data(), static_cast<int>(relief.columns), static_cast<int>(relief.rows),
+                       4 * static_cast<qsizetype>(relief.columns), QImage::Format_RGBA8888);
+    return {RasterLayer::Height, products.dem.geometry,
+            withOverviews(image.convertToFormat(QImage::Format_ARGB32_Premultiplied)),
+            {colours(ramp), relief.lowest_m, relief.highest_m, false, "m", {}}};
+}
+
+/// The few largest values, at the edge of the survey, must not take the colours from all others.
+double upperEnd(std::span<const float> values) {
+    std::vector<float> known;
+    std::copy_if(values.begin(), values.end(), std::back_inserter(known),
+                 [](float v) { return std::isfinite(v) && v > 0.0F; });
+    if (known.empty()) return 1.0;
+    const auto at = known.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(known.size() - 1));
+    std::nth_element(known.begin(), at, known.end());
+    return *at;
+}
+
+RasterPicture values(const Products& products, RasterLayer layer, std::span<const float> numbers,
+                     const QString& unit) {
+    const std::vector<Colour> ramp = sequentialRamp();
+    const GridGeometry& g = products.dem.geometry;
+    const double high = upperEnd(numbers);
+    bool above = false;
+    QImage image = emptyImage(g);
+    for (std::size_t row = 0; row < g.rows; ++row) {
+        auto* line = reinterpret_cast<QRgb*>(image.scanLine(static_cast<int>(row)));
+        for (std::size_t column = 0; column < g.columns; ++column) {
+            const std::size_t cell = row * g.columns + column;
+            if (!std::isfinite(numbers[cell]) || std::isnan(products.dem.heights_m[cell])) continue;
+            above = above || static_cast<double>(numbers[cell]) > high;
+            const Colour c = rampColour(ramp, static_cast<double>(numbers[cell]) / high);
+            line[column] = qRgb(c[0], c[1], c[2]);
+        }
+    }
+    return {layer, g, withOverviews(image), {colours(ramp), 0.0, high, above, unit, {}}};
+}
+
+RasterPicture sources(const Products& products) {
+    // Okabe and Ito: told apart by readers who do not see all colours.
+    const std::vector<QColor> classes{QColor(0, 158, 115), QColor(86, 180, 233), QColor(230, 159, 0)};
+    const GridGeometry& g = products.dem.geometry;
+    QImage image = emptyImage(g);
+    for (std::size_t row = 0; row < g.rows; ++row) {
+        auto* line = reinterpret_cast<QRgb*>(image.scanLine(static_cast<int>(row)));
+        for (std::size_t column = 0; column < g.columns; ++column) {
+            const std::uint8_t source = products.uncertainty->sources[row * g.columns + column];
+            if (source >= 1 && source <= classes.size()) line[column] = classes[source - 1U].rgb();
+        }
+    }
+    return {RasterLayer::Source, g, withOverviews(image),
+            {classes, 0.0, 0.0, false, {},
+             {translated("measured"), translated("interpolated"), translated("extrapolated")}}};
+}
+
+}  // namespace
+
+RasterPicture rasterPicture(const Products& products, RasterLayer layer) {
+    if (!hasLayer(products, layer)) return {};
+    switch (layer) {
+        case RasterLayer::Height:
+            return heights(products);
+        case RasterLayer::Uncertainty:
+            return values(products, layer, products.uncertainty->sigmas_m, "m");
+        case RasterLayer::Density:
+            return values(products, layer, products.uncertainty->density_per_m2, translated("points/m²"));
+        case RasterLayer::Source:
+            return sources(products);
+        case RasterLayer::None:
+            break;
+    }
+    return {};
+}
+
+void drawRaster(QPainter& painter, const RasterPicture& picture, const MapTransform& transform) {
+    if (picture.levels.empty()) return;
+    const QRectF extent_m = extentOf(picture.geometry);
+    // As coarse as one pixel of the picture still covers no more than one of the screen.
+    const double screen_px_per_cell = transform.pixels_per_m * picture.geometry.cell_m;
+    std::size_t level = 0;
+    while (level + 1 < picture.levels.size() &&
+           screen_px_per_cell * static_cast<double>(std::size_t{2} << level) <= 1.0) {
+        ++level;
+    }
+    const QImage& image = picture.levels[level];
+    const QRectF whole(transform.toScreen({extent_m.left(), extent_m.bottom()}),
+                       transform.toScreen({extent_m.right(), extent_m.top()}));
+    const QRectF seen = whole.intersected(QRectF(QPointF(0, 0), transform.size_px));
+    if (seen.isEmpty()) return;
+    const double across = image.width() / whole.width(), down = image.height() / whole.height();
+    // Whole pixels of the picture and one more, so that its pixels stay in place while the map is moved.
+    const QRect source =
+        QRectF((seen.left() - whole.left()) * across, (seen.top() - whole.top()) * down,
+               seen.width() * across, seen.height() * down)
+            .toAlignedRect()
+            .adjusted(-1, -1, 1, 1)
+            .intersected(image.rect());
+    const QRectF target(whole.left() + source.left() / across, whole.top() + source.top() / down,
+                        source.width() / across, source.height() / down);
+    painter.setRenderHint(QPainter::SmoothPixmapTransform, screen_px_per_cell < 8.0);
+    painter.drawImage(target, image, source);
+}
+
+QRectF extentOf(const GridGeometry& g) {
+    const double high_m = g.cell_m * static_cast<double>(g.rows);
+    return {g.west_m, g.north_m - high_m, g.cell_m * static_cast<double>(g.columns), high_m};
+}
+
+bool hasLayer(const Products& products, RasterLayer layer) {
+    if (layer == RasterLayer::None) return false;
+    return layer == RasterLayer::Height ? products.dem.geometry.size() > 0 : products.uncertainty.has_value();
+}
+
+std::optional<RasterReading> readingAt(const Products& products, QPointF map_m) {
+    const auto cell = products.dem.geometry.cellAt(map_m.x(), map_m.y());
+    if (!cell || std::isnan(products.dem.heights_m[*cell])) return std::nullopt;
+    RasterReading reading{products.dem.heights_m[*cell], std::nullopt};
+    if (products.uncertainty && std::isfinite(products.uncertainty->sigmas_m[*cell])) {
+        reading.sigma_m = products.uncertainty->sigmas_m[*cell];
+    }
+    return reading;
+}
+
+}  // namespace terrawalk::gui

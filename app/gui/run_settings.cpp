@@ -1,0 +1,50 @@
+#include "app/gui/run_settings.hpp"
+
+#include <algorithm>
+
+namespace terrawalk::gui {
+
+Result<void> RunSettings::set(const std::string& key, const std::string& text) {
+    PipelineConfig trial = config();
+    if (auto done = applySetting(trial, key + "=" + text); !done) return done;
+    if (text == parameterInfo(key).default_value) {
+        changes_.erase(key);
+    } else {
+        changes_[key] = text;
+    }
+    return {};
+}
+
+std::string RunSettings::text(const std::string& key) const {
+    const auto found = changes_.find(key);
+    return found != changes_.end() ? found->second : parameterInfo(key).default_value;
+}
+
+PipelineConfig RunSettings::config() const {
+    PipelineConfig config;
+    for (const std::string& assignment : assignments()) {
+        // set() has tried it already.
+        static_cast<void>(applySetting(config, assignment));
+    }
+    return config;
+}
+
+std::vector<std::string> RunSettings::assignments() const {
+    std::vector<std::string> list;
+    for (const auto& [key, text] : changes_) list.push_back(key + "=" + text);
+    return list;
+}
+
+const std::vector<ParameterInfo>& knownParameters() {
+    static const std::vector<ParameterInfo> all = describeParameters();
+    return all;
+}
+
+const ParameterInfo& parameterInfo(std::string_view key) {
+    static const ParameterInfo none;
+    const auto& all = knownParameters();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const auto& p) { return p.key == key; });
+    return found == all.end() ? none : *found;
+}
+
+}  // namespace terrawalk::gui

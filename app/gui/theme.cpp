@@ -1,0 +1,178 @@
+#include "app/gui/theme.hpp"
+
+#include <QApplication>
+#include <QFile>
+#include <QPainter>
+#include <QPalette>
+#include <QPixmap>
+#include <QStyleFactory>
+#include <QSvgRenderer>
+
+namespace terrawalk::gui {
+
+namespace {
+
+struct Colours {
+    QColor window, base, raised, text, quiet, line, accent, on_accent, warning, error;
+};
+
+const Colours kLight{QColor("#f3f4f2"), QColor("#ffffff"), QColor("#fafbf9"), QColor("#1d2421"),
+                     QColor("#5b6660"), QColor("#d3d8d4"), QColor("#12695c"), QColor("#ffffff"),
+                     QColor("#8a5a00"), QColor("#b3261e")};
+const Colours kDark{QColor("#1e2322"), QColor("#171b1a"), QColor("#262c2a"), QColor("#e6ebe8"),
+                    QColor("#9caaa4"), QColor("#3a423f"), QColor("#4fb3a2"), QColor("#0d1a17"),
+                    QColor("#e5b454"), QColor("#f2877f")};
+
+Theme current = Theme::Light;
+
+const Colours& colours() {
+    return current == Theme::Light ? kLight : kDark;
+}
+
+QPalette paletteOf(const Colours& c) {
+    QPalette p;
+    p.setColor(QPalette::Window, c.window);
+    p.setColor(QPalette::WindowText, c.text);
+    p.setColor(QPalette::Base, c.base);
+    p.setColor(QPalette::AlternateBase, c.raised);
+    p.setColor(QPalette::Text, c.text);
+    p.setColor(QPalette::Button, c.raised);
+    p.setColor(QPalette::ButtonText, c.text);
+    p.setColor(QPalette::BrightText, c.error);
+    p.setColor(QPalette::ToolTipBase, c.raised);
+    p.setColor(QPalette::ToolTipText, c.text);
+    p.setColor(QPalette::PlaceholderText, c.quiet);
+    p.setColor(QPalette::Highlight, c.accent);
+    p.setColor(QPalette::HighlightedText, c.on_accent);
+    p.setColor(QPalette::Link, c.accent);
+    p.setColor(QPalette::LinkVisited, c.accent);
+    p.setColor(QPalette::Mid, c.line);
+    p.setColor(QPalette::Midlight, c.line);
+    p.setColor(QPalette::Light, c.raised);
+    p.setColor(QPalette::Dark, c.line.darker(115));
+    p.setColor(QPalette::Shadow, c.line.darker(140));
+    for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText}) {
+        QColor faint = c.quiet;
+        faint.setAlpha(150);
+        p.setColor(QPalette::Disabled, role, faint);
+    }
+    return p;
+}
+
+// Sizes in steps of eight pixels, or half of that.
+constexpr const char* kStyle = R"(
+QMainWindow::separator { background: %line; width: 1px; height: 1px; }
+QToolBar { border: 0; border-bottom: 1px solid %line; padding: 4px 8px; spacing: 4px; background: %window; }
+QToolBar QToolButton { padding: 4px 8px; border-radius: 4px; border: 0; }
+QToolBar QToolButton:hover { background: %line; }
+QStatusBar { border-top: 1px solid %line; }
+QStatusBar::item { border: 0; }
+QDockWidget { font-weight: 600; }
+QDockWidget::title { padding: 8px; background: %window; border-bottom: 1px solid %line; }
+QTreeView, QTableView, QScrollArea, QPlainTextEdit { border: 0; background: %base; }
+QTreeView::item { padding: 3px 0; }
+QTreeView::item:selected, QTableView::item:selected { background: %accent; color: %onaccent; }
+QHeaderView::section { background: %raised; border: 0; border-bottom: 1px solid %line; padding: 4px 8px; font-weight: 600; }
+QTabWidget::pane { border: 0; }
+QTabBar::tab { padding: 8px 16px; border: 0; border-bottom: 2px solid transparent; color: %quiet; }
+QTabBar::tab:selected { color: %text; border-bottom: 2px solid %accent; }
+QLineEdit, QComboBox { padding: 3px 8px; border: 1px solid %line; border-radius: 4px; background: %base; min-height: 18px; }
+QLineEdit:focus, QComboBox:focus { border-color: %accent; }
+QLineEdit[refused="true"] { border-color: %error; }
+QComboBox::drop-down { border: 0; width: 20px; }
+QComboBox::down-arrow { image: none; border-left: 4px solid transparent; border-right: 4px solid transparent; border-top: 5px solid %quiet; }
+QComboBox QAbstractItemView { background: %base; border: 1px solid %line; selection-background-color: %accent; selection-color: %onaccent; }
+QPushButton { padding: 6px 16px; border: 1px solid %line; border-radius: 4px; background: %raised; }
+QPushButton:hover, QPushButton:focus { border-color: %accent; }
+QPushButton:disabled { color: %quiet; }
+QPushButton#primary { background: %accent; color: %onaccent; border-color: %accent; font-weight: 600; }
+QPushButton#primary:disabled { background: %line; color: %quiet; border-color: %line; }
+QPushButton#primary:focus { border-color: %text; }
+QFrame#card { background: %base; border: 1px solid %line; border-radius: 6px; }
+QLabel#quiet { color: %quiet; }
+QLabel#title { font-size: 22px; font-weight: 600; }
+QLabel#heading { font-size: 15px; font-weight: 600; }
+QLabel#figure { font-size: 19px; font-weight: 600; }
+QLabel#cardTitle { font-weight: 600; }
+QToolButton#fold { border: 0; color: %quiet; padding: 4px 0; }
+QToolButton#fold:hover, QToolButton#fold:focus { color: %accent; }
+QProgressBar { border: 0; border-radius: 3px; background: %line; max-height: 6px; min-height: 6px; }
+QProgressBar::chunk { border-radius: 3px; background: %accent; }
+QToolTip { background: %raised; color: %text; border: 1px solid %line; padding: 4px; }
+QScrollBar:vertical { width: 10px; background: transparent; margin: 0; }
+QScrollBar:horizontal { height: 10px; background: transparent; margin: 0; }
+QScrollBar::handle { background: %line; border-radius: 4px; min-height: 24px; min-width: 24px; margin: 1px; }
+QScrollBar::handle:hover { background: %quiet; }
+QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }
+QScrollBar::add-page, QScrollBar::sub-page { background: transparent; }
+)";
+
+QString styleSheet(const Colours& c) {
+    QString style = kStyle;
+    const std::pair<const char*, QColor> names[] = {
+        {"%window", c.window}, {"%base", c.base},     {"%raised", c.raised},     {"%text", c.text},
+        {"%quiet", c.quiet},   {"%line", c.line},     {"%onaccent", c.on_accent}, {"%accent", c.accent},
+        {"%error", c.error},
+    };
+    for (const auto& [name, colour] : names) style.replace(name, colour.name());
+    return style;
+}
+
+}  // namespace
+
+void applyTheme(Theme theme) {
+    current = theme;
+    QApplication::setStyle(QStyleFactory::create("Fusion"));
+    QApplication::setPalette(paletteOf(colours()));
+    qApp->setStyleSheet(styleSheet(colours()));
+}
+
+Theme currentTheme() {
+    return current;
+}
+
+Theme desktopTheme() {
+    const QPalette palette = QApplication::palette();
+    const bool dark = palette.color(QPalette::Window).lightness() < palette.color(QPalette::WindowText).lightness();
+    return dark ? Theme::Dark : Theme::Light;
+}
+
+QColor accentColour() {
+    return colours().accent;
+}
+
+QColor quietColour() {
+    return colours().quiet;
+}
+
+QColor warningColour() {
+    return colours().warning;
+}
+
+QColor errorColour() {
+    return colours().error;
+}
+
+QIcon icon(const QString& name, const QColor& colour) {
+    QFile file(":/icons/" + name + ".svg");
+    if (!file.open(QIODevice::ReadOnly)) return {};
+    QByteArray svg = file.readAll();
+    QIcon made;
+    const QColor own = colour.isValid() ? colour : colours().text;
+    for (const auto& [mode, ink] : {std::pair{QIcon::Normal, own}, std::pair{QIcon::Disabled, colours().line.darker(current == Theme::Light ? 120 : 80)}}) {
+        QByteArray coloured = svg;
+        coloured.replace("currentColor", ink.name().toUtf8());
+        QSvgRenderer renderer(coloured);
+        for (const int size_px : {16, 24, 32, 48, 64, 128}) {
+            QPixmap pixmap(size_px, size_px);
+            pixmap.fill(Qt::transparent);
+            QPainter painter(&pixmap);
+            renderer.render(&painter);
+            painter.end();
+            made.addPixmap(pixmap, mode);
+        }
+    }
+    return made;
+}
+
+}  // namespace terrawalk::gui

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <QColor>
+#include <QIcon>
+#include <QString>
+
+namespace terrawalk::gui {
+
+enum class Theme { Light, Dark };
+
+/// Colours, sizes and style of the whole program: one accent colour, spaces in steps of eight pixels.
+void applyTheme(Theme theme);
+[[nodiscard]] Theme currentTheme();
+/// What the desktop seems to like, by its own colours; to be asked before the first applyTheme().
+[[nodiscard]] Theme desktopTheme();
+[[nodiscard]] QColor accentColour();
+/// Of text that says less, and readable all the same.
+[[nodiscard]] QColor quietColour();
+[[nodiscard]] QColor warningColour();
+[[nodiscard]] QColor errorColour();
+
+/// One of the program's own icons, in the colour of text unless another is given.
+[[nodiscard]] QIcon icon(const QString& name, const QColor& colour = {});
+
+inline constexpr int kGrid_px = 8;
+
+}  // namespace terrawalk::gui

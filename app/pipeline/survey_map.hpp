@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "app/pipeline/process.hpp"
+#include "survey/result.hpp"
+#include "survey/survey.hpp"
+
+namespace terrawalk {
+
+/// A run as a line on the map: one place for each epoch that has a position, in its order.
+struct MapTrack {
+    std::string run_id;
+    RunKind kind = RunKind::Area;
+    std::vector<Eigen::Vector3d> map_m;
+    std::vector<double> sigma_plan_m;  ///< larger of the two axes, 1 sigma; empty where nobody tells
+    std::vector<double> sigma_height_m;
+};
+
+/// A mark on the map, with what is known of the errors there.
+struct PlacedMark {
+    ControlMark mark;
+    Eigen::Vector3d map_m = Eigen::Vector3d::Zero();
+    std::optional<Eigen::Vector2d> array_map_m;  ///< where the fused track says that the mark is; the mean of
+                                                 ///< its runs
+    std::optional<double> height_error_m;        ///< surface less mark
+};
+
+/// A survey in the map frame, for drawing.
+struct SurveyMap {
+    std::string crs;  ///< human-readable name of the map frame
+    std::vector<MapTrack> tracks;
+    std::vector<PlacedMark> marks;  ///< the zero point first
+};
+
+/// The GNSS positions as they were logged. Errors: as MapProjection; Cancelled.
+[[nodiscard]] Result<SurveyMap> loggedMap(const Survey& survey, const std::stop_token& stop);
+/// The fused tracks, and the marks with their errors. Errors: as above.
+/// @param products  of this survey
+[[nodiscard]] Result<SurveyMap> fusedMap(const Survey& survey, const Products& products,
+                                         const std::stop_token& stop);
+
+}  // namespace terrawalk
