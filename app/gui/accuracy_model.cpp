@@ -1,0 +1,108 @@
+#include "app/gui/accuracy_model.hpp"
+
+#include <QFont>
+#include <utility>
+
+namespace terrawalk::gui {
+
+namespace {
+
+QString text(std::string_view utf8) {
+    return QString::fromUtf8(utf8.data(), static_cast<qsizetype>(utf8.size()));
+}
+
+QString length(double metres) {
+    return QString::number(metres, 'f', 3).replace('-', QChar(0x2212));
+}
+
+QString cell(const AccuracyGroup& group, int column) {
+    const auto& up = group.up;
+    switch (column) {
+        case AccuracyModel::StageColumn:
+            return text(name(group.stage));
+        case AccuracyModel::QuantityColumn:
+            return text(name(group.quantity));
+        case AccuracyModel::RoleColumn:
+            return text(name(group.role));
+        case AccuracyModel::CountColumn:
+            return up           ? QString::number(up->n)
+                   : group.horizontal ? QString::number(group.horizontal->n)
+                                      : QString();
+        case AccuracyModel::PlanRmse:
+            return group.horizontal ? length(group.horizontal->rmse_m) : QString("–");
+        case AccuracyModel::HeightMean:
+            return up ? length(up->mean_m) : QString("–");
+        case AccuracyModel::HeightSd:
+            return up && up->sd_m ? length(*up->sd_m) : QString("–");
+        case AccuracyModel::HeightRmse:
+            return up ? length(up->rmse_m) : QString("–");
+        case AccuracyModel::HeightLargest:
+            return up ? length(up->largest_m) : QString("–");
+        default:
+            return {};
+    }
+}
+
+}  // namespace
+
+void AccuracyModel::show(std::vector<AccuracyGroup> groups, std::optional<std::size_t> headline) {
+    beginResetModel();
+    groups_ = std::move(groups);
+    headline_ = headline;
+    endResetModel();
+}
+
+int AccuracyModel::rowCount(const QModelIndex& parent) const {
+    return parent.isValid() ? 0 : static_cast<int>(groups_.size());
+}
+
+int AccuracyModel::columnCount(const QModelIndex& parent) const {
+    return parent.isValid() ? 0 : ColumnCount;
+}
+
+QVariant AccuracyModel::data(const QModelIndex& index, int role) const {
+    if (!index.isValid()) return {};
+    const auto row = static_cast<std::size_t>(index.row());
+    if (role == Qt::DisplayRole) return cell(groups_[row], index.column());
+    if (role == Qt::TextAlignmentRole) {
+        return QVariant((index.column() >= CountColumn ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+    }
+    if (role == Qt::FontRole && headline_ == row) {
+        QFont bold;
+        bold.setBold(true);
+        return bold;
+    }
+    return {};
+}
+
+QVariant AccuracyModel::headerData(int section, Qt::Orientation orientation, int role) const {
+    if (orientation != Qt::Horizontal) return {};
+    if (role == Qt::TextAlignmentRole) {
+        return QVariant((section >= CountColumn ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+    }
+    if (role != Qt::DisplayRole) return {};
+    switch (section) {
+        case StageColumn:
+            return tr("Stage");
+        case QuantityColumn:
+            return tr("Compared");
+        case RoleColumn:
+            return tr("Marks");
+        case CountColumn:
+            return tr("n");
+        case PlanRmse:
+            return tr("Plan RMSE (m)");
+        case HeightMean:
+            return tr("Height mean (m)");
+        case HeightSd:
+            return tr("SD (m)");
+        case HeightRmse:
+            return tr("RMSE (m)");
+        case HeightLargest:
+            return tr("Largest (m)");
+        default:
+            return {};
+    }
+}
+
+}  // namespace terrawalk::gui

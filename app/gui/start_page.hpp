@@ -1,0 +1,35 @@
+#pragma once
+
+#include <QWidget>
+#include <filesystem>
+#include <vector>
+
+class QVBoxLayout;
+
+namespace terrawalk::gui {
+
+/// Surveys that ship with the program, where they are found.
+struct SampleSurvey {
+    QString title;
+    std::filesystem::path path;
+};
+[[nodiscard]] std::vector<SampleSurvey> sampleSurveys();
+
+/// What the window shows before a survey is open.
+class StartPage : public QWidget {
+    Q_OBJECT
+  public:
+    explicit StartPage(QWidget* parent = nullptr);
+    /// Lists the recent surveys anew.
+    void refresh();
+
+  Q_SIGNALS:
+    void openAsked();
+    void surveyAsked(const QString& path);
+    void sampleAsked(const QString& path);
+
+  private:
+    QVBoxLayout* recent_ = nullptr;
+};
+
+}  // namespace terrawalk::gui
