@@ -25,7 +25,7 @@ QString cell(const AccuracyGroup& group, int column) {
         case AccuracyModel::RoleColumn:
             return text(name(group.role));
         case AccuracyModel::CountColumn:
-            return up           ? QString::number(up->n)
+            return up                 ? QString::number(up->n)
                    : group.horizontal ? QString::number(group.horizontal->n)
                                       : QString();
         case AccuracyModel::PlanRmse:

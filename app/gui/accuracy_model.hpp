@@ -11,7 +11,18 @@ namespace terrawalk::gui {
 class AccuracyModel : public QAbstractTableModel {
     Q_OBJECT
   public:
-    enum Column { StageColumn, QuantityColumn, RoleColumn, CountColumn, PlanRmse, HeightMean, HeightSd, HeightRmse, HeightLargest, ColumnCount };
+    enum Column {
+        StageColumn,
+        QuantityColumn,
+        RoleColumn,
+        CountColumn,
+        PlanRmse,
+        HeightMean,
+        HeightSd,
+        HeightRmse,
+        HeightLargest,
+        ColumnCount
+    };
     using QAbstractTableModel::QAbstractTableModel;
     void show(std::vector<AccuracyGroup> groups, std::optional<std::size_t> headline);
     [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;

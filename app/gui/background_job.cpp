@@ -70,7 +70,8 @@ void BackgroundJob::start(Work work) {
         }
         // Outcomes are large: shared, so that the queue copies none of them.
         const auto outcome = std::make_shared<const Delivery>(std::move(delivery));
-        QMetaObject::invokeMethod(this, [this, outcome] { finish(*outcome); }, Qt::QueuedConnection);
+        QMetaObject::invokeMethod(
+            this, [this, outcome] { finish(*outcome); }, Qt::QueuedConnection);
     });
 }
 

@@ -185,7 +185,8 @@ void drawFurniture(QPainter& painter, const MapScene& scene, const MapTransform&
     const QFontMetricsF metrics(painter.font());
     for (const LegendPart& part : legendParts(scene)) {
         const double width = widthOf(part, metrics), height = heightOf(part, metrics.height());
-        drawLegend(painter, part, {transform.size_px.width() - kMargin_px - width, top, width, height}, palette);
+        drawLegend(painter, part, {transform.size_px.width() - kMargin_px - width, top, width, height},
+                   palette);
         top += height + 8;
     }
     drawVectorNote(painter, scene, transform, palette);

@@ -1,5 +1,6 @@
 #include "app/gui/map_scene.hpp"
 
+#include <QPainterPath>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -65,7 +66,8 @@ void drawSymbol(QPainter& painter, QPointF at, const ControlMark& mark, bool hig
     if (mark.name == kZeroMark) {
         painter.drawRect(QRectF(at.x() - r, at.y() - r, 2 * r, 2 * r));
     } else if (mark.role == MarkRole::Control) {
-        painter.drawPolygon(QPolygonF({at + QPointF(0, -1.2 * r), at + QPointF(r, 0.8 * r), at + QPointF(-r, 0.8 * r)}));
+        painter.drawPolygon(
+            QPolygonF({at + QPointF(0, -1.2 * r), at + QPointF(r, 0.8 * r), at + QPointF(-r, 0.8 * r)}));
     } else {
         painter.drawEllipse(at, 0.8 * r, 0.8 * r);
     }
@@ -109,8 +111,8 @@ QRectF MapScene::extent_m() const {
 }
 
 QColor runColour(std::size_t index) {
-    static const std::array<QColor, 7> colours{QColor(0, 90, 160),   QColor(213, 94, 0),  QColor(150, 60, 130),
-                                               QColor(0, 128, 96),   QColor(90, 50, 20),  QColor(190, 40, 60),
+    static const std::array<QColor, 7> colours{QColor(0, 90, 160), QColor(213, 94, 0), QColor(150, 60, 130),
+                                               QColor(0, 128, 96), QColor(90, 50, 20), QColor(190, 40, 60),
                                                QColor(60, 60, 60)};
     return colours[index % colours.size()];
 }
@@ -154,7 +156,8 @@ void drawTracks(QPainter& painter, const MapScene& scene, const MapTransform& tr
         const double width_px = scene.highlighted == id ? 4.0 : 1.8;
         const auto& own = sigmas(track, scene.colouring);
         const QPolygonF line = onScreen(track, transform);
-        painter.setPen(QPen(QColor(255, 255, 255, 150), width_px + 1.6, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+        painter.setPen(
+            QPen(QColor(255, 255, 255, 150), width_px + 1.6, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
         painter.drawPolyline(line);
         if (greatest_m > 0.0 && own.size() == track.map_m.size()) {
             drawBySigma(painter, track, own, greatest_m, transform, width_px + 0.7);
@@ -187,9 +190,11 @@ void drawMarks(QPainter& painter, const MapScene& scene, const MapTransform& tra
         const QString name = text(placed.mark.name);
         if (scene.hidden_marks.contains(name)) continue;
         const QPointF at = transform.toScreen({placed.map_m.x(), placed.map_m.y()}) + QPointF(8, -6);
-        const QRectF box(at - QPointF(0, painter.fontMetrics().ascent()),
-                         QSizeF(painter.fontMetrics().horizontalAdvance(name), painter.fontMetrics().height()));
-        const bool free = std::none_of(taken.begin(), taken.end(), [&](const QRectF& other) { return other.intersects(box); });
+        const QRectF box(
+            at - QPointF(0, painter.fontMetrics().ascent()),
+            QSizeF(painter.fontMetrics().horizontalAdvance(name), painter.fontMetrics().height()));
+        const bool free = std::none_of(taken.begin(), taken.end(),
+                                       [&](const QRectF& other) { return other.intersects(box); });
         if (!free && scene.highlighted != name) continue;
         taken << box;
         drawLabel(painter, at, name, palette);

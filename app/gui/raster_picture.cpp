@@ -43,7 +43,8 @@ RasterPicture heights(const Products& products) {
     const ReliefImage relief = shadedRelief(products.dem, ramp);
     const QImage image(relief.rgba.data(), static_cast<int>(relief.columns), static_cast<int>(relief.rows),
                        4 * static_cast<qsizetype>(relief.columns), QImage::Format_RGBA8888);
-    return {RasterLayer::Height, products.dem.geometry,
+    return {RasterLayer::Height,
+            products.dem.geometry,
             withOverviews(image.convertToFormat(QImage::Format_ARGB32_Premultiplied)),
             {colours(ramp), relief.lowest_m, relief.highest_m, false, "m", {}}};
 }
@@ -91,8 +92,14 @@ RasterPicture sources(const Products& products) {
             if (source >= 1 && source <= classes.size()) line[column] = classes[source - 1U].rgb();
         }
     }
-    return {RasterLayer::Source, g, withOverviews(image),
-            {classes, 0.0, 0.0, false, {},
+    return {RasterLayer::Source,
+            g,
+            withOverviews(image),
+            {classes,
+             0.0,
+             0.0,
+             false,
+             {},
              {translated("measured"), translated("interpolated"), translated("extrapolated")}}};
 }
 
@@ -132,12 +139,11 @@ void drawRaster(QPainter& painter, const RasterPicture& picture, const MapTransf
     if (seen.isEmpty()) return;
     const double across = image.width() / whole.width(), down = image.height() / whole.height();
     // Whole pixels of the picture and one more, so that its pixels stay in place while the map is moved.
-    const QRect source =
-        QRectF((seen.left() - whole.left()) * across, (seen.top() - whole.top()) * down,
-               seen.width() * across, seen.height() * down)
-            .toAlignedRect()
-            .adjusted(-1, -1, 1, 1)
-            .intersected(image.rect());
+    const QRect source = QRectF((seen.left() - whole.left()) * across, (seen.top() - whole.top()) * down,
+                                seen.width() * across, seen.height() * down)
+                             .toAlignedRect()
+                             .adjusted(-1, -1, 1, 1)
+                             .intersected(image.rect());
     const QRectF target(whole.left() + source.left() / across, whole.top() + source.top() / down,
                         source.width() / across, source.height() / down);
     painter.setRenderHint(QPainter::SmoothPixmapTransform, screen_px_per_cell < 8.0);

@@ -64,12 +64,14 @@ StartPage::StartPage(QWidget* parent) : QWidget(parent) {
     head->addWidget(picture);
     auto* words = new QVBoxLayout;
     words->addWidget(label("Terrawalk", "title"));
-    words->addWidget(label(tr("From a walk with the sensor array to a terrain model that you can sign for."), "quiet"));
+    words->addWidget(
+        label(tr("From a walk with the sensor array to a terrain model that you can sign for."), "quiet"));
     head->addLayout(words, 1);
     column->addLayout(head);
     column->addSpacing(3 * kGrid_px);
 
-    auto* open = new QPushButton(icon("open", QPalette().color(QPalette::HighlightedText)), tr("Open a survey…"));
+    auto* open =
+        new QPushButton(icon("open", QPalette().color(QPalette::HighlightedText)), tr("Open a survey…"));
     open->setObjectName("primary");
     open->setToolTip(tr("A survey.json, or a folder that holds one. Or drop it onto this window."));
     connect(open, &QPushButton::clicked, this, &StartPage::openAsked);
@@ -114,7 +116,8 @@ void StartPage::refresh() {
         connect(button, &QPushButton::clicked, this, [this, path] { Q_EMIT surveyAsked(path); });
         recent_->addWidget(button);
     }
-    if (paths.isEmpty()) recent_->addWidget(label(tr("None yet: the surveys that you open will stand here."), "quiet"));
+    if (paths.isEmpty())
+        recent_->addWidget(label(tr("None yet: the surveys that you open will stand here."), "quiet"));
 }
 
 }  // namespace terrawalk::gui

@@ -13,7 +13,10 @@ namespace fs = std::filesystem;
 class SettingCommand final : public QUndoCommand {
   public:
     SettingCommand(SurveySession& session, QString key, QString before, QString after)
-        : QUndoCommand(key), session_(session), key_(std::move(key)), before_(std::move(before)),
+        : QUndoCommand(key),
+          session_(session),
+          key_(std::move(key)),
+          before_(std::move(before)),
           after_(std::move(after)) {}
     void undo() override { session_.put(key_, before_); }
     void redo() override { session_.put(key_, after_); }
@@ -76,27 +79,27 @@ void SurveySession::open(const fs::path& path, bool then_process) {
 
 void SurveySession::process() {
     if (!survey_) return;
-    job_.start([this, survey = survey_, settings = settings_](Progress& progress,
-                                                              const std::stop_token& stop) {
-        auto made = terrawalk::process(*survey, settings.config(), progress, stop);
-        Result<SurveyMap> map = made ? fusedMap(*survey, *made, stop) : tl::unexpected(made.error());
-        return [this, settings, made = std::move(made), map = std::move(map)]() mutable {
-            if (!map) return fail(map.error());
-            products_ = std::make_shared<const Products>(std::move(*made));
-            map_ = std::make_shared<const SurveyMap>(std::move(*map));
-            processed_with_ = settings;
-            Q_EMIT productsChanged();
-            for (const std::string& line : products_->report.warnings) {
-                Q_EMIT told(MessageKind::Warning, text(line));
-            }
-            const SurveyReport& report = products_->report;
-            const QString figure = report.figures.empty()
-                                       ? QString()
-                                       : tr(" %1: %2.").arg(text(report.figures.front().label),
-                                                            text(report.figures.front().value));
-            Q_EMIT told(MessageKind::Done, tr("Processed.") + figure);
-        };
-    });
+    job_.start(
+        [this, survey = survey_, settings = settings_](Progress& progress, const std::stop_token& stop) {
+            auto made = terrawalk::process(*survey, settings.config(), progress, stop);
+            Result<SurveyMap> map = made ? fusedMap(*survey, *made, stop) : tl::unexpected(made.error());
+            return [this, settings, made = std::move(made), map = std::move(map)]() mutable {
+                if (!map) return fail(map.error());
+                products_ = std::make_shared<const Products>(std::move(*made));
+                map_ = std::make_shared<const SurveyMap>(std::move(*map));
+                processed_with_ = settings;
+                Q_EMIT productsChanged();
+                for (const std::string& line : products_->report.warnings) {
+                    Q_EMIT told(MessageKind::Warning, text(line));
+                }
+                const SurveyReport& report = products_->report;
+                const QString figure = report.figures.empty() ? QString()
+                                                              : tr(" %1: %2.")
+                                                                    .arg(text(report.figures.front().label),
+                                                                         text(report.figures.front().value));
+                Q_EMIT told(MessageKind::Done, tr("Processed.") + figure);
+            };
+        });
 }
 
 void SurveySession::exportTo(const fs::path& folder) {

@@ -21,7 +21,7 @@ QString duration(double seconds) {
                   : QString("%1:%2 min").arg(s / 60).arg(s % 60, 2, 10, QLatin1Char('0'));
 }
 
-QStandardItem* item(const QString& name, SurveyTreeModel::Kind kind, const QString& id) {
+QStandardItem* entry(const QString& name, SurveyTreeModel::Kind kind, const QString& id) {
     auto* made = new QStandardItem(name);
     made->setEditable(false);
     made->setData(kind, SurveyTreeModel::KindRole);
@@ -63,7 +63,7 @@ void SurveyTreeModel::show(const Survey& survey, const SurveyMap& map, const Pro
 }
 
 QStandardItem* SurveyTreeModel::addGroup(const QString& name, qsizetype count) {
-    QStandardItem* group = item(name, Group, {});
+    QStandardItem* group = entry(name, Group, {});
     QFont bold = group->font();
     bold.setBold(true);
     group->setFont(bold);
@@ -76,10 +76,12 @@ void SurveyTreeModel::addRuns(const Survey& survey, const Products* products) {
     for (std::size_t i = 0; i < survey.runs.size(); ++i) {
         const Run& run = survey.runs[i];
         const bool area = run.kind == RunKind::Area;
-        QStandardItem* row = checkable(item(text(run.id), RunItem, text(run.id)));
+        QStandardItem* row = checkable(entry(text(run.id), RunItem, text(run.id)));
         row->setIcon(icon(area ? "area_run" : "fixed_point_run", runColour(i)));
-        QString words = run.log.size() > 0 ? duration(run.log.time_s.back() - run.log.time_s.front()) : tr("empty");
-        QString help = area ? tr("Area run %1").arg(text(run.id)) : tr("Fixed-point run %1").arg(text(run.id));
+        QString words =
+            run.log.size() > 0 ? duration(run.log.time_s.back() - run.log.time_s.front()) : tr("empty");
+        QString help =
+            area ? tr("Area run %1").arg(text(run.id)) : tr("Fixed-point run %1").arg(text(run.id));
         if (run.start) help += tr(", starts on %1").arg(text(*run.start));
         if (run.target) help += tr(", ends on %1").arg(text(*run.target));
         help += tr("; %1 records").arg(run.log.size());
@@ -98,9 +100,10 @@ void SurveyTreeModel::addMarks(const SurveyMap& map) {
     for (const PlacedMark& placed : map.marks) {
         const ControlMark& mark = placed.mark;
         const bool control = mark.role == MarkRole::Control;
-        QStandardItem* row = checkable(item(text(mark.name), MarkItem, text(mark.name)));
+        QStandardItem* row = checkable(entry(text(mark.name), MarkItem, text(mark.name)));
         row->setIcon(icon(control ? "control_mark" : "check_mark"));
-        row->setToolTip(control ? tr("Control mark: may hold the track") : tr("Check mark: only ever measures errors"));
+        row->setToolTip(control ? tr("Control mark: may hold the track")
+                                : tr("Check mark: only ever measures errors"));
         QString words = control ? tr("control") : tr("check");
         if (placed.height_error_m) {
             words = (*placed.height_error_m < 0 ? "−" : "+") +
@@ -118,15 +121,15 @@ void SurveyTreeModel::addResults(const Products& products) {
         row->setIcon(icon("result"));
         group->appendRow({row, state(words)});
     };
-    add(item(tr("DEM"), ResultItem, "dem"),
+    add(entry(tr("DEM"), ResultItem, "dem"),
         tr("%1 × %2, %3 m").arg(report.surface.columns).arg(report.surface.rows).arg(report.surface.cell_m));
     if (products.uncertainty && report.surface.uncertainty) {
-        add(item(tr("Uncertainty"), ResultItem, "uncertainty"),
+        add(entry(tr("Uncertainty"), ResultItem, "uncertainty"),
             tr("median %1 m").arg(QString::number(report.surface.uncertainty->median_m, 'f', 2)));
     }
-    add(item(tr("Mesh"), ResultItem, "mesh"), tr("%1 triangles").arg(report.surface.triangles));
+    add(entry(tr("Mesh"), ResultItem, "mesh"), tr("%1 triangles").arg(report.surface.triangles));
     if (!products.terrace_edges.empty()) {
-        add(checkable(item(tr("Terrace edges"), EdgesItem, "edges")),
+        add(checkable(entry(tr("Terrace edges"), EdgesItem, "edges")),
             QString("%1").arg(products.terrace_edges.size()));
     }
 }

@@ -110,9 +110,9 @@ QScrollBar::add-page, QScrollBar::sub-page { background: transparent; }
 QString styleSheet(const Colours& c) {
     QString style = kStyle;
     const std::pair<const char*, QColor> names[] = {
-        {"%window", c.window}, {"%base", c.base},     {"%raised", c.raised},     {"%text", c.text},
-        {"%quiet", c.quiet},   {"%line", c.line},     {"%onaccent", c.on_accent}, {"%accent", c.accent},
-        {"%error", c.error},
+        {"%window", c.window},      {"%base", c.base},     {"%raised", c.raised},
+        {"%text", c.text},          {"%quiet", c.quiet},   {"%line", c.line},
+        {"%onaccent", c.on_accent}, {"%accent", c.accent}, {"%error", c.error},
     };
     for (const auto& [name, colour] : names) style.replace(name, colour.name());
     return style;
@@ -133,7 +133,8 @@ Theme currentTheme() {
 
 Theme desktopTheme() {
     const QPalette palette = QApplication::palette();
-    const bool dark = palette.color(QPalette::Window).lightness() < palette.color(QPalette::WindowText).lightness();
+    const bool dark =
+        palette.color(QPalette::Window).lightness() < palette.color(QPalette::WindowText).lightness();
     return dark ? Theme::Dark : Theme::Light;
 }
 
@@ -159,7 +160,9 @@ QIcon icon(const QString& name, const QColor& colour) {
     QByteArray svg = file.readAll();
     QIcon made;
     const QColor own = colour.isValid() ? colour : colours().text;
-    for (const auto& [mode, ink] : {std::pair{QIcon::Normal, own}, std::pair{QIcon::Disabled, colours().line.darker(current == Theme::Light ? 120 : 80)}}) {
+    for (const auto& [mode, ink] :
+         {std::pair{QIcon::Normal, own},
+          std::pair{QIcon::Disabled, colours().line.darker(current == Theme::Light ? 120 : 80)}}) {
         QByteArray coloured = svg;
         coloured.replace("currentColor", ink.name().toUtf8());
         QSvgRenderer renderer(coloured);

@@ -65,6 +65,7 @@ Result<SurveyMap> loggedMap(const Survey& survey, const std::stop_token& stop) {
     for (const Run& run : survey.runs) {
         if (stop.stop_requested()) return cancelled();
         std::vector<Eigen::Vector3d> enu_m;
+        std::vector<double> time_s;
         for (std::size_t i = 0; i < run.log.size(); ++i) {
             GeodeticPosition position{run.log.value(Channel::Latitude, i),
                                       run.log.value(Channel::Longitude, i),
@@ -72,10 +73,11 @@ Result<SurveyMap> loggedMap(const Survey& survey, const std::stop_token& stop) {
             if (!present(position.lat_deg) || !present(position.lon_deg)) continue;
             if (!present(position.h_ell_m)) position.h_ell_m = survey.zero_point.h_ell_m;
             enu_m.push_back(frame.toEnu(position));
+            time_s.push_back(run.log.time_s[i]);
         }
         auto places = projection->toMap(enu_m);
         if (!places) return tl::unexpected(places.error());
-        map->tracks.push_back({run.id, run.kind, std::move(*places), {}, {}});
+        map->tracks.push_back({run.id, run.kind, std::move(*places), std::move(time_s), {}, {}});
     }
     return map;
 }
@@ -87,10 +89,11 @@ Result<SurveyMap> fusedMap(const Survey& survey, const Products& products, const
     if (!map) return map;
     for (std::size_t i = 0; i < products.trajectories.size(); ++i) {
         if (stop.stop_requested()) return cancelled();
-        MapTrack track{products.trajectories[i].run_id, survey.runs[i].kind, {}, {}, {}};
+        MapTrack track{products.trajectories[i].run_id, survey.runs[i].kind, {}, {}, {}, {}};
         std::vector<Eigen::Vector3d> enu_m;
         for (const TrajectoryEpoch& epoch : products.trajectories[i].epochs) {
             enu_m.push_back(epoch.position_enu_m);
+            track.time_s.push_back(epoch.time_s);
             track.sigma_plan_m.push_back(std::sqrt(std::max(epoch.covariance(0, 0), epoch.covariance(1, 1))));
             track.sigma_height_m.push_back(std::sqrt(epoch.covariance(2, 2)));
         }

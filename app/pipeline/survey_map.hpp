@@ -17,6 +17,7 @@ struct MapTrack {
     std::string run_id;
     RunKind kind = RunKind::Area;
     std::vector<Eigen::Vector3d> map_m;
+    std::vector<double> time_s;        ///< of the log
     std::vector<double> sigma_plan_m;  ///< larger of the two axes, 1 sigma; empty where nobody tells
     std::vector<double> sigma_height_m;
 };
