@@ -431,7 +431,7 @@ Result<MethodComparison> compareSurvey(const fs::path& path, const PipelineConfi
         folder = std::move(*created);
     }
     PartialProgress reading(progress, 0.0, 0.1);
-    const auto survey = openSurvey(path, reading, stop);
+    const auto survey = openSurvey(path, reading, stop, config.edits);
     if (!survey) return tl::unexpected(survey.error());
     const auto truth = readTruth(*survey);
     if (!truth) return tl::unexpected(truth.error());

@@ -639,6 +639,128 @@ std::vector<Parameter> surfaceParameters() {
     };
 }
 
+/// A list of values that are texts or objects; `fromJson` gives nothing for one that is not permitted.
+template <class Item>
+Parameter list(std::string key, std::string range, std::string meaning, Field<std::vector<Item>> field,
+               ordered_json (*toJson)(const Item&), std::optional<Item> (*fromJson)(const json&)) {
+    Parameter p{std::move(key), std::move(range), std::move(meaning), {}, {}};
+    p.get = [field, toJson](const PipelineConfig& config) {
+        ordered_json items = ordered_json::array();
+        for (const Item& item : read(field, config)) items.push_back(toJson(item));
+        return items;
+    };
+    p.set = [field, fromJson, p](PipelineConfig& config, const json& value) -> Result<void> {
+        if (!value.is_array()) return usageError(wrongValue(p, value), "give a list: " + p.range);
+        std::vector<Item> items;
+        for (const json& one : value) {
+            auto item = fromJson(one);
+            if (!item) {
+                return usageError(fmt::format("item {} of {} is not permitted", items.size() + 1, p.key),
+                                  "permitted: " + p.range);
+            }
+            items.push_back(std::move(*item));
+        }
+        field(config) = std::move(items);
+        return {};
+    };
+    return p;
+}
+
+ordered_json nameJson(const std::string& text) {
+    return text;
+}
+
+std::optional<std::string> nameOf(const json& value) {
+    if (!value.is_string()) return std::nullopt;
+    return value.get<std::string>();
+}
+
+ordered_json stretchJson(const ExcludedStretch& s) {
+    return {{"run", s.run},
+            {"from_s", s.from_s},
+            {"to_s", s.to_s},
+            {"sensor", kEditedSensors[static_cast<std::size_t>(s.sensor)].second}};
+}
+
+template <class Enum, std::size_t n>
+std::optional<Enum> valueNamed(const std::array<std::pair<Enum, std::string_view>, n>& names,
+                               const json& text) {
+    const auto found = std::find_if(names.begin(), names.end(), [&](const auto& entry) {
+        return text.is_string() && text.get_ref<const std::string&>() == entry.second;
+    });
+    if (found == names.end()) return std::nullopt;
+    return found->first;
+}
+
+std::optional<ExcludedStretch> stretchOf(const json& value) {
+    if (!value.is_object() || !value.contains("run") || !value["run"].is_string()) return std::nullopt;
+    ExcludedStretch stretch{value["run"].get<std::string>()};
+    for (const auto& [key, time_s] : {std::pair{"from_s", &stretch.from_s}, {"to_s", &stretch.to_s}}) {
+        if (!value.contains(key) || !value[key].is_number()) return std::nullopt;
+        *time_s = value[key].template get<double>();
+    }
+    const auto sensor = valueNamed(kEditedSensors, value.value("sensor", json("all")));
+    if (!sensor || !(stretch.from_s <= stretch.to_s)) return std::nullopt;
+    stretch.sensor = *sensor;
+    return stretch;
+}
+
+ordered_json lineJson(const Breakline& line) {
+    ordered_json vertices = ordered_json::array();
+    for (const Eigen::Vector3d& v : line.vertices_m) {
+        ordered_json vertex{v.x(), v.y()};
+        if (present(v.z())) vertex.push_back(v.z());
+        vertices.push_back(std::move(vertex));
+    }
+    return {{"kind", kBreaklineKinds[static_cast<std::size_t>(line.kind)].second}, {"vertices_m", vertices}};
+}
+
+std::optional<Eigen::Vector3d> vertexOf(const json& value) {
+    if (!value.is_array() || value.size() < 2 || value.size() > 3) return std::nullopt;
+    Eigen::Vector3d vertex(kMissing, kMissing, kMissing);
+    for (std::size_t axis = 0; axis < value.size(); ++axis) {
+        if (!value[axis].is_number()) return std::nullopt;
+        vertex[static_cast<Eigen::Index>(axis)] = value[axis].get<double>();
+    }
+    return vertex;
+}
+
+std::optional<Breakline> lineOf(const json& value) {
+    if (!value.is_object() || !value.contains("vertices_m") || !value["vertices_m"].is_array()) {
+        return std::nullopt;
+    }
+    const auto kind = valueNamed(kBreaklineKinds, value.value("kind", json("hard")));
+    if (!kind) return std::nullopt;
+    Breakline line{{}, *kind, {}};
+    for (const json& one : value["vertices_m"]) {
+        const auto vertex = vertexOf(one);
+        if (!vertex) return std::nullopt;
+        line.vertices_m.push_back(*vertex);
+    }
+    return line;
+}
+
+std::vector<Parameter> editParameters() {
+    return {
+        list<ExcludedStretch>("edits.stretches",
+                              "[{\"run\": \"S01\", \"from_s\": 1, \"to_s\": 2, \"sensor\": \"all\"}, ...] "
+                              "with sensor all, gnss, barometer, flow, attitude or range",
+                              "readings that are left out", TERRAWALK_FIELD(edits.stretches), stretchJson,
+                              stretchOf),
+        list<std::string>("edits.runs", "[\"S01\", ...]", "runs that are left out",
+                          TERRAWALK_FIELD(edits.runs), nameJson, nameOf),
+        list<std::string>("edits.marks", "[\"P01\", ...]",
+                          "marks that are left out: neither control nor check", TERRAWALK_FIELD(edits.marks),
+                          nameJson, nameOf),
+        list<Breakline>(
+            "edits.lines",
+            "[{\"kind\": \"hard\", \"vertices_m\": [[x, y], ...]}, ...] in the map frame, a third "
+            "number is a height; kind hard, soft, boundary or hole",
+            "lines that the surface keeps to, beside those of the survey's file",
+            TERRAWALK_FIELD(edits.lines), lineJson, lineOf),
+    };
+}
+
 // An option that is added without a parameter could be neither set nor reported.
 static_assert(sizeof(FusionOptions) == 1224, "add the new option to fusionParameters()");
 static_assert(sizeof(AukfOptions) == 168, "add the new option to aukfParameters()");
@@ -649,8 +771,8 @@ static_assert(sizeof(SurfaceOptions) == 160, "add the new option to surfaceParam
 const std::vector<Parameter>& parameters() {
     static const std::vector<Parameter> kParameters = [] {
         std::vector<Parameter> all = fusionParameters();
-        for (const auto& part :
-             {aukfParameters(), groundParameters(), cleaningParameters(), surfaceParameters()})
+        for (const auto& part : {aukfParameters(), groundParameters(), cleaningParameters(),
+                                 surfaceParameters(), editParameters()})
             all.insert(all.end(), part.begin(), part.end());
         return all;
     }();

@@ -14,6 +14,7 @@
 #include "mapping/point_cleaning.hpp"
 #include "mapping/terrace_edges.hpp"
 #include "survey/result.hpp"
+#include "survey/survey_edits.hpp"
 #include "survey/survey_report.hpp"
 
 namespace terrawalk {
@@ -43,6 +44,7 @@ struct PipelineConfig {
     GroundPointOptions ground;
     SurfaceOptions surface;
     ReportOptions report;
+    SurveyEdits edits;       ///< already made in the survey that process() gets
     std::uint64_t seed = 1;  ///< of the confidence intervals in the report
     /// How the values came about, where `terrawalk tune` made them: for the report, without effect on the
     /// products.

@@ -143,8 +143,11 @@ std::string simulationManifest(const SimulationOptions& o, const Survey& survey,
 
 }  // namespace
 
-Result<Survey> openSurvey(const fs::path& path, Progress& progress, std::stop_token stop) {
-    return readSurvey(projectFileOf(path), progress, std::move(stop));
+Result<Survey> openSurvey(const fs::path& path, Progress& progress, std::stop_token stop,
+                          const SurveyEdits& edits) {
+    auto survey = readSurvey(projectFileOf(path), progress, std::move(stop));
+    if (!survey || edits.empty()) return survey;
+    return withEdits(std::move(*survey), edits);
 }
 
 Result<Products> processSurvey(const fs::path& path, const PipelineConfig& config,
@@ -159,7 +162,7 @@ Result<Products> processSurvey(const fs::path& path, const PipelineConfig& confi
         return search + share * (1.0 - search);
     };
     PartialProgress reading(progress, 0.0, 0.2 * (1.0 - search));
-    const auto survey = openSurvey(path, reading, stop);
+    const auto survey = openSurvey(path, reading, stop, config.edits);
     if (!survey) return tl::unexpected(survey.error());
     Result<PipelineConfig> chosen = config;
     PartialProgress searching(progress, 0.2 * (1.0 - search), after(0.2));

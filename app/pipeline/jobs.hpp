@@ -20,9 +20,11 @@ namespace terrawalk {
 // over the whole job and returns `Cancelled` soon after a stop was requested; nothing half-written stays
 // behind.
 
-/// Reads the survey of a project file, or of the survey.json in a folder.
+/// Reads the survey of a project file, or of the survey.json in a folder, and makes the edits. Errors: as
+/// readSurvey() and withEdits().
 [[nodiscard]] Result<Survey> openSurvey(const std::filesystem::path& project_file_or_folder,
-                                        Progress& progress, std::stop_token stop);
+                                        Progress& progress, std::stop_token stop,
+                                        const SurveyEdits& edits = {});
 
 /// Reads, processes, and writes the products into `output`. The returned products are those that were
 /// written.

@@ -77,7 +77,7 @@ Result<TunedSurvey> tuneSurvey(const fs::path& path, const PipelineConfig& confi
                                const TuneFiles& files, Progress& progress, std::stop_token stop) {
     if (auto good = checkedOutput(files.output); !good) return tl::unexpected(good.error());
     PartialProgress reading(progress, 0.0, 0.02);
-    const auto survey = openSurvey(path, reading, stop);
+    const auto survey = openSurvey(path, reading, stop, config.edits);
     if (!survey) return tl::unexpected(survey.error());
     const auto problem = tunableProblem(*survey, config, options.hyperparameters, stop);
     if (!problem) return tl::unexpected(problem.error());
