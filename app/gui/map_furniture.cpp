@@ -90,18 +90,47 @@ QString titleOf(RasterLayer layer) {
     return {};
 }
 
+QString titleOf(TrackColouring colouring) {
+    switch (colouring) {
+        case TrackColouring::Speed:
+            return translated("Track, speed");
+        case TrackColouring::Height:
+            return translated("Track, height");
+        case TrackColouring::SigmaPlan:
+            return translated("Track, plan 1 σ");
+        case TrackColouring::SigmaHeight:
+            return translated("Track, height 1 σ");
+        case TrackColouring::Run:
+        case TrackColouring::Fix:
+            break;
+    }
+    return {};
+}
+
 std::vector<LegendPart> legendParts(const MapScene& scene) {
     std::vector<LegendPart> parts;
     if (scene.raster && !scene.raster->levels.empty()) {
         parts.push_back({titleOf(scene.raster->layer), scene.raster->legend});
     }
-    const double greatest_m = greatestSigma(scene);
-    if (greatest_m > 0.0) {
+    if (const auto classes = fixClasses(scene); !classes.empty()) {
+        LegendPart part{translated("GNSS fix"), {}};
+        for (const auto& [name, colour] : classes) {
+            part.legend.classes << name;
+            part.legend.ramp.push_back(colour);
+        }
+        parts.push_back(std::move(part));
+    }
+    if (const auto range = trackRange(scene)) {
         std::vector<QColor> ramp;
         for (const Colour& c : sequentialRamp()) ramp.emplace_back(c[0], c[1], c[2]);
-        parts.push_back({scene.colouring == TrackColouring::SigmaPlan ? translated("Track, plan 1 σ")
-                                                                      : translated("Track, height 1 σ"),
-                         {ramp, 0.0, greatest_m, true, "m", {}}});
+        const bool speed = scene.colouring == TrackColouring::Speed;
+        parts.push_back({titleOf(scene.colouring),
+                         {ramp,
+                          range->low,
+                          range->high,
+                          scene.colouring != TrackColouring::Height,
+                          speed ? "m/s" : "m",
+                          {}}});
     }
     return parts;
 }

@@ -16,6 +16,7 @@ QString translated(const char* text) {
 std::vector<Step> steps() {
     return {
         {StepKind::Import, translated("Import"), "import", {}, {}},
+        {StepKind::Tune, translated("Tune"), "tune", {}, {}},
         {StepKind::Fuse,
          translated("Fuse"),
          "fuse",

@@ -1,0 +1,65 @@
+#include <QApplication>
+#include <QCommandLineParser>
+#include <QLibraryInfo>
+#include <QLocale>
+#include <QSettings>
+#include <QTranslator>
+
+#include "app/gui/main_window.hpp"
+#include "app/gui/theme.hpp"
+#include "app/pipeline/version.hpp"
+
+namespace {
+
+QString wantedLanguage(const QCommandLineParser& parser) {
+    if (parser.isSet("language")) return parser.value("language");
+    const QString chosen = QSettings().value("language").toString();
+    return chosen.isEmpty() ? QLocale::system().name() : chosen;
+}
+
+terrawalk::gui::Theme wantedTheme(const QCommandLineParser& parser) {
+    using terrawalk::gui::Theme;
+    const QString chosen =
+        parser.isSet("theme") ? parser.value("theme") : QSettings().value("theme").toString();
+    if (chosen == "dark") return Theme::Dark;
+    return chosen == "light" ? Theme::Light : terrawalk::gui::desktopTheme();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    using namespace terrawalk::gui;
+    QApplication app(argc, argv);
+    QApplication::setOrganizationName("Terrawalk");
+    QApplication::setApplicationName("terrawalk-gui");
+    QApplication::setApplicationDisplayName("Terrawalk");
+    QApplication::setApplicationVersion(QString::fromStdString(terrawalk::versionNumber()));
+    QApplication::setDesktopFileName("terrawalk-gui");
+
+    QCommandLineParser parser;
+    parser.setApplicationDescription(
+        "Terrawalk's desktop app: from the logs of a walk to a terrain model that you can sign for.");
+    parser.addHelpOption();
+    parser.addVersionOption();
+    parser.addPositionalArgument("survey", "A survey.json, or the folder that holds one.", "[survey]");
+    parser.addOption({"process", "Process the survey once it is open."});
+    parser.addOption({"theme", "light or dark; without it the last one, or the desktop's.", "theme"});
+    parser.addOption({"language", "en or zh_CN; without it the last one, or the system's.", "language"});
+    parser.process(app);
+
+    QTranslator translator, qt_translator;
+    const QString language = wantedLanguage(parser);
+    if (language.startsWith("zh")) {
+        if (translator.load(":/i18n/terrawalk_zh_CN.qm")) QApplication::installTranslator(&translator);
+        if (qt_translator.load("qtbase_zh_CN", QLibraryInfo::path(QLibraryInfo::TranslationsPath))) {
+            QApplication::installTranslator(&qt_translator);
+        }
+    }
+    applyTheme(wantedTheme(parser));
+    MainWindow window;
+    window.show();
+    if (!parser.positionalArguments().isEmpty()) {
+        window.open(parser.positionalArguments().front(), parser.isSet("process"));
+    }
+    return QApplication::exec();
+}
