@@ -99,7 +99,7 @@ AccuracyPanel::AccuracyPanel(Selection& selection, QWidget* parent) : QWidget(pa
     figures_ = new QHBoxLayout;
     figures_->setSpacing(kGrid_px);
     column->addLayout(figures_);
-    column->addWidget(heading(tr("Errors by group")));
+    column->addWidget(heading(tr("Errors by group, in metres")));
     groups_ = new QTableView;
     groups_->setObjectName("groups");
     groups_->setModel(&model_);
@@ -134,6 +134,7 @@ void AccuracyPanel::show(std::shared_ptr<const Products> products) {
     fillFigures(report);
     model_.show(report.accuracy, report.headline);
     groups_->resizeColumnsToContents();
+    groups_->setHorizontalScrollBarPolicy(Qt::ScrollBarAsNeeded);
     groups_->horizontalHeader()->setSectionResizeMode(AccuracyModel::QuantityColumn, QHeaderView::Stretch);
     fitHeight(*groups_);
     fillWords(report);

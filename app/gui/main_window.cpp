@@ -9,6 +9,7 @@
 #include <QDragEnterEvent>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QHeaderView>
 #include <QLabel>
 #include <QListView>
 #include <QMenu>
@@ -22,6 +23,7 @@
 #include <QTreeView>
 #include <QUrl>
 #include <algorithm>
+#include <utility>
 
 #include "app/gui/accuracy_panel.hpp"
 #include "app/gui/export_dialog.hpp"
@@ -143,6 +145,8 @@ void MainWindow::buildDocks() {
     tree_->setContextMenuPolicy(Qt::CustomContextMenu);
     tree_->setIndentation(16);
     tree_->setMinimumWidth(200);
+    tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    tree_->setFrameShape(QFrame::NoFrame);
     tree_->setAccessibleName(tr("Survey"));
     connect(tree_, &QTreeView::customContextMenuRequested, this, &MainWindow::treeMenu);
     connect(tree_, &QTreeView::clicked, this, [this](const QModelIndex& index) {
@@ -168,14 +172,17 @@ void MainWindow::buildDocks() {
     messages_->setObjectName("messages");
     messages_->setModel(&message_model_);
     messages_->setSelectionMode(QAbstractItemView::ExtendedSelection);
-    messages_->setWordWrap(true);
+    messages_->setIconSize({16, 16});
+    messages_->setUniformItemSizes(true);
+    messages_->setTextElideMode(Qt::ElideRight);
+    messages_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     messages_->setFrameShape(QFrame::NoFrame);
     messages_->setAccessibleName(tr("Messages"));
     auto* tree_dock = addDock(Qt::LeftDockWidgetArea, "dock_survey", tr("Survey"), tree_);
     auto* place_dock = addDock(Qt::LeftDockWidgetArea, "dock_place", tr("Place"), place_);
     auto* steps_dock = addDock(Qt::RightDockWidgetArea, "dock_steps", tr("Steps"), steps_);
     auto* message_dock = addDock(Qt::BottomDockWidgetArea, "dock_messages", tr("Messages"), messages_);
-    resizeDocks({tree_dock, steps_dock}, {264, 312}, Qt::Horizontal);
+    resizeDocks({tree_dock, steps_dock}, {288, 328}, Qt::Horizontal);
     resizeDocks({tree_dock, place_dock}, {340, 340}, Qt::Vertical);
     resizeDocks({message_dock}, {120}, Qt::Vertical);
     readout_ = new QLabel;
@@ -222,7 +229,7 @@ void MainWindow::buildFileMenu() {
     });
     addAction(menu, "start_page", "map", tr("&Start page"), {}, [this] {
         start_->refresh();
-        pages_->setCurrentWidget(start_);
+        showPage(start_);
     });
     menu.addSeparator();
     addAction(menu, "save", "save", tr("&Save settings"), QKeySequence::Save, [this] { session_.save(); });
@@ -357,10 +364,19 @@ void MainWindow::copyCommand() {
     }
 }
 
+void MainWindow::showPage(QWidget* page) {
+    pages_->setCurrentWidget(page);
+    if (page == start_ && layout_.isEmpty()) {
+        layout_ = saveState(kLayoutVersion);
+        for (QDockWidget* dock : docks_) dock->hide();
+    } else if (page != start_ && !layout_.isEmpty()) {
+        restoreState(std::exchange(layout_, {}), kLayoutVersion);
+    }
+}
+
 void MainWindow::showSurvey() {
     const auto survey = session_.survey();
-    pages_->setCurrentWidget(survey ? static_cast<QWidget*>(views_) : start_);
-    for (QDockWidget* dock : docks_) dock->setEnabled(true);
+    showPage(survey ? static_cast<QWidget*>(views_) : start_);
     if (survey) {
         rememberSurvey(text(session_.path().string()));
         views_->setCurrentWidget(map_);
@@ -383,7 +399,9 @@ void MainWindow::showTree() {
     if (!survey) return;
     tree_model_.show(*survey, *session_.map(), session_.products().get(), session_.edits(), map().scene());
     tree_->expandAll();
-    tree_->resizeColumnToContents(0);
+    tree_->header()->setStretchLastSection(false);
+    tree_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+    tree_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
 }
 
 void MainWindow::showTitle() {
@@ -528,7 +546,7 @@ void MainWindow::themeIcons() {
 void MainWindow::closeEvent(QCloseEvent* event) {
     QSettings settings;
     settings.setValue("window/geometry", saveGeometry());
-    settings.setValue("window/layout", saveState(kLayoutVersion));
+    settings.setValue("window/layout", layout_.isEmpty() ? saveState(kLayoutVersion) : layout_);
     session_.cancel();
     event->accept();
 }

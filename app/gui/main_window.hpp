@@ -64,6 +64,7 @@ class MainWindow : public QMainWindow {
     void askForSurvey();
     void askForExport();
     void copyCommand();
+    void showPage(QWidget* page);
     void showSurvey();
     void showProducts();
     void showTitle();
@@ -96,6 +97,7 @@ class MainWindow : public QMainWindow {
     QLabel* readout_ = nullptr;
     QLabel* state_ = nullptr;
     QList<QDockWidget*> docks_;
+    QByteArray layout_;  ///< of the docks, while the start page hides them
     std::map<QString, QAction*> actions_;
 };
 

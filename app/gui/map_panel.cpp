@@ -3,7 +3,6 @@
 #include <QAction>
 #include <QActionGroup>
 #include <QComboBox>
-#include <QLabel>
 #include <QStandardItemModel>
 #include <QToolBar>
 #include <QVBoxLayout>
@@ -53,10 +52,6 @@ void MapPanel::addLayers() {
         view_->setLayer(layer);
         Q_EMIT layerChanged(layer);
     });
-    auto* label = new QLabel(tr("Ground"));
-    label->setObjectName("quiet");
-    label->setContentsMargins(0, 0, 4, 0);
-    bar_->addWidget(label);
     bar_->addWidget(layers_);
 }
 
@@ -66,19 +61,21 @@ void MapPanel::addColourings() {
     colourings_->setAccessibleName(tr("Colour of the tracks"));
     colourings_->setToolTip(tr("What the tracks are coloured by"));
     const std::pair<TrackColouring, QString> names[] = {
-        {TrackColouring::Run, tr("Run")},          {TrackColouring::Fix, tr("GNSS fix")},
-        {TrackColouring::Speed, tr("Speed")},      {TrackColouring::Height, tr("Height")},
-        {TrackColouring::SigmaPlan, tr("Plan σ")}, {TrackColouring::SigmaHeight, tr("Height σ")}};
+        {TrackColouring::Run, tr("Tracks by run")},
+        {TrackColouring::Fix, tr("Tracks by fix")},
+        {TrackColouring::Speed, tr("Tracks by speed")},
+        {TrackColouring::Height, tr("Tracks by height")},
+        {TrackColouring::SigmaPlan, tr("Tracks by plan σ")},
+        {TrackColouring::SigmaHeight, tr("Tracks by height σ")}};
     for (const auto& [colouring, name] : names) colourings_->addItem(name, static_cast<int>(colouring));
     connect(colourings_, &QComboBox::currentIndexChanged, this, [this] {
         const auto colouring = static_cast<TrackColouring>(colourings_->currentData().toInt());
         view_->setColouring(colouring);
         Q_EMIT colouringChanged(colouring);
     });
-    auto* label = new QLabel(tr("Tracks"));
-    label->setObjectName("quiet");
-    label->setContentsMargins(8, 0, 4, 0);
-    bar_->addWidget(label);
+    auto* gap = new QWidget;
+    gap->setFixedWidth(kGrid_px);
+    bar_->addWidget(gap);
     bar_->addWidget(colourings_);
     contours_ = bar_->addAction(tr("Contours"));
     contours_->setProperty(kIconName, "contours");
@@ -146,7 +143,7 @@ QList<QAction*> MapPanel::toolActions() const {
 void MapPanel::themeChanged() {
     for (QAction* action : bar_->actions()) {
         const QString name = action->property(kIconName).toString();
-        if (!name.isEmpty()) action->setIcon(icon(name));
+        if (!name.isEmpty()) action->setIcon(toolIcon(name));
     }
 }
 

@@ -24,6 +24,15 @@ QLabel* label(const QString& text, const char* name = nullptr) {
     return made;
 }
 
+/// One line, cut where the column ends.
+QLabel* line(const QString& text, const char* name = nullptr) {
+    auto* made = new QLabel(text);
+    if (name != nullptr) made->setObjectName(name);
+    made->setToolTip(text);
+    made->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    return made;
+}
+
 QLabel* number(const QString& text) {
     auto* made = new QLabel(text);
     made->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
@@ -54,7 +63,7 @@ class ShareBar : public QWidget {
 
 void addPart(QGridLayout& grid, const QString& name, double part_m, double sigma_m) {
     const int row = grid.rowCount();
-    grid.addWidget(label(name), row, 0);
+    grid.addWidget(line(name), row, 0);
     grid.addWidget(number(metres(part_m)), row, 1);
     grid.addWidget(new ShareBar(sigma_m > 0.0 ? part_m * part_m / (sigma_m * sigma_m) : 0.0), row + 1, 0, 1,
                    2);
@@ -84,7 +93,7 @@ void addSigma(QVBoxLayout& column, const PlaceReport& place) {
     addPart(*grid, PlacePanel::tr("Height of the track"), p.track_m, *place.sigma_m);
     addPart(*grid, PlacePanel::tr("Track in plan × slope"), p.plan_m, *place.sigma_m);
     addPart(*grid, PlacePanel::tr("Attitude × range × slope"), p.attitude_m, *place.sigma_m);
-    addPart(*grid, PlacePanel::tr("Between points, range, roughness"), p.interpolation_m, *place.sigma_m);
+    addPart(*grid, PlacePanel::tr("Between points, noise"), p.interpolation_m, *place.sigma_m);
     column.addLayout(grid);
 }
 
@@ -97,15 +106,15 @@ void addSamples(QVBoxLayout& column, const PlaceReport& place) {
     const QStringList heads{PlacePanel::tr("Run, time"), PlacePanel::tr("away"), PlacePanel::tr("height"),
                             PlacePanel::tr("σ")};
     for (int c = 0; c < heads.size(); ++c) {
-        auto* head = c == 0 ? label(heads[c], "quiet") : number(heads[c]);
+        auto* head = c == 0 ? line(heads[c]) : number(heads[c]);
         head->setObjectName("quiet");
         grid->addWidget(head, 0, c);
     }
     for (const NearSample& sample : place.nearest) {
         const int row = grid->rowCount();
         const QString run = QString::fromStdString(sample.run_id);
-        QString where = PlacePanel::tr("%1, %2 s").arg(run, QString::number(sample.time_s, 'f', 1));
-        auto* first = label(where);
+        QString where = PlacePanel::tr("%1 %2 s").arg(run, QString::number(sample.time_s, 'f', 1));
+        auto* first = line(where);
         if (sample.state != GroundPointState::Used) {
             const auto reason = name(sample.state);
             first->setText(where + " · " +

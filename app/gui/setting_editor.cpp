@@ -103,7 +103,8 @@ void SettingEditor::buildNumber() {
     layout()->addWidget(field);
     auto* unit = new QLabel(settingUnit(key_), this);
     unit->setObjectName("quiet");
-    unit->setMinimumWidth(3 * kGrid_px);
+    unit->setFixedWidth(4 * kGrid_px);
+    field->setMinimumWidth(7 * kGrid_px);
     layout()->addWidget(unit);
     const auto follow = [this, field](const QString& key) {
         if (key != key_) return;

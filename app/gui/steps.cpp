@@ -36,7 +36,7 @@ std::vector<Step> steps() {
          translated("Surface"),
          "surface",
          {{"surface.method", translated("Method")},
-          {"surface.cell_m", translated("Cell size (0: by density)")},
+          {"surface.cell_m", translated("Cell size")},
           {"surface.terrace_edges", translated("Terrace edges")}},
          {"surface."}},
         {StepKind::Check, translated("Check"), "check", {}, {"report.", "seed"}},

@@ -116,7 +116,8 @@ void SurveyTreeModel::addRuns(const Survey& survey, const Products* products, co
         const Run& run = survey.runs[i];
         const bool area = run.kind == RunKind::Area;
         QStandardItem* made = entry(text(run.id), RunItem, text(run.id));
-        made->setIcon(icon(area ? "area_run" : "fixed_point_run", runColour(i)));
+        made->setIcon(icon(area ? "area_run" : "fixed_point_run",
+                           currentTheme() == Theme::Dark ? runColour(i).lighter(170) : runColour(i)));
         if (isIn(edits.runs, run.id)) {
             leaveOut(*made);
             group->appendRow({made, state(tr("left out"))});

@@ -21,6 +21,8 @@ void applyTheme(Theme theme);
 
 /// One of the program's own icons, in the colour of text unless another is given.
 [[nodiscard]] QIcon icon(const QString& name, const QColor& colour = {});
+/// The same for a button that stands on the accent colour while it is checked.
+[[nodiscard]] QIcon toolIcon(const QString& name);
 
 inline constexpr int kGrid_px = 8;
 

@@ -31,7 +31,7 @@ class Camera {
         : window_(window), folder_(std::move(folder)), suffix_(std::move(suffix)) {}
     void shoot(const QString& name, QWidget* what = nullptr) {
         waitFor([this] { return !window_.map().preparing(); }, 20000);
-        QTest::qWait(60);
+        QTest::qWait(150);
         const QString file = folder_.filePath(name + suffix_ + ".png");
         (what != nullptr ? what : &window_)->grab().save(file);
         std::printf("%s\n", qPrintable(file));
