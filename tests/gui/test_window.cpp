@@ -101,6 +101,8 @@ void WindowTest::init() {
     window_->resize(1280, 800);
     window_->show();
     QVERIFY(QTest::qWaitForWindowExposed(window_.get()));
+    // Nobody else makes it the active one where no window manager runs, and keys go to the active one.
+    QApplication::setActiveWindow(window_.get());
 }
 
 void WindowTest::cleanup() {
