@@ -1,21 +1,13 @@
 #include <QApplication>
 #include <QCommandLineParser>
-#include <QLibraryInfo>
-#include <QLocale>
 #include <QSettings>
-#include <QTranslator>
 
+#include "app/gui/language.hpp"
 #include "app/gui/main_window.hpp"
 #include "app/gui/theme.hpp"
 #include "app/pipeline/version.hpp"
 
 namespace {
-
-QString wantedLanguage(const QCommandLineParser& parser) {
-    if (parser.isSet("language")) return parser.value("language");
-    const QString chosen = QSettings().value("language").toString();
-    return chosen.isEmpty() ? QLocale::system().name() : chosen;
-}
 
 terrawalk::gui::Theme wantedTheme(const QCommandLineParser& parser) {
     using terrawalk::gui::Theme;
@@ -47,14 +39,7 @@ int main(int argc, char** argv) {
     parser.addOption({"language", "en or zh_CN; without it the last one, or the system's.", "language"});
     parser.process(app);
 
-    QTranslator translator, qt_translator;
-    const QString language = wantedLanguage(parser);
-    if (language.startsWith("zh")) {
-        if (translator.load(":/i18n/terrawalk_zh_CN.qm")) QApplication::installTranslator(&translator);
-        if (qt_translator.load("qtbase_zh_CN", QLibraryInfo::path(QLibraryInfo::TranslationsPath))) {
-            QApplication::installTranslator(&qt_translator);
-        }
-    }
+    applyLanguage(parser.isSet("language") ? parser.value("language") : preferredLanguage());
     applyTheme(wantedTheme(parser));
     MainWindow window;
     window.show();

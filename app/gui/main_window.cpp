@@ -22,6 +22,7 @@
 #include <QTabWidget>
 #include <QTreeView>
 #include <QUrl>
+#include <QWhatsThis>
 #include <algorithm>
 #include <utility>
 
@@ -266,6 +267,21 @@ void MainWindow::buildEditMenu() {
     menu.addSeparator();
     addAction(menu, "exclude", "exclude", tr("E&xclude what is selected"), QKeySequence(Qt::Key_Delete),
               [this] { excludeSelected(); });
+    QMenu* only = menu.addMenu(tr("Exclude &only"));
+    const std::pair<EditedSensor, QString> sensors[] = {{EditedSensor::Range, tr("range (no ground points)")},
+                                                        {EditedSensor::Gnss, tr("GNSS")},
+                                                        {EditedSensor::Barometer, tr("barometer")},
+                                                        {EditedSensor::Flow, tr("optical flow")},
+                                                        {EditedSensor::Attitude, tr("attitude")}};
+    for (const auto& [sensor, words] : sensors) {
+        connect(only->addAction(words), &QAction::triggered, this, [this, one = sensor] {
+            if (session_.selection().stretch()) excludeStretch(*session_.selection().stretch(), one);
+        });
+    }
+    connect(only, &QMenu::aboutToShow, this, [this, only] {
+        for (QAction* action : only->actions())
+            action->setEnabled(session_.selection().stretch().has_value());
+    });
     menu.addSeparator();
     menu.addActions(map_->toolActions());
 }
@@ -293,6 +309,8 @@ void MainWindow::buildViewMenu() {
 void MainWindow::buildHelpMenu() {
     QMenu& menu = *menuBar()->addMenu(tr("&Help"));
     addAction(menu, "shortcuts", "help", tr("&Keys"), QKeySequence("F1"), [this] { showShortcuts(); });
+    addAction(menu, "whats_this", "help", tr("&What is this?"), QKeySequence::WhatsThis,
+              [] { QWhatsThis::enterWhatsThisMode(); });
     addAction(menu, "about", "info", tr("&About Terrawalk"), {}, [this] { showAbout(); });
 }
 
@@ -307,7 +325,10 @@ void MainWindow::connectSession() {
         enableActions();
     });
     connect(&session_.job(), &BackgroundJob::runningChanged, this, &MainWindow::enableActions);
-    connect(&session_.selection(), &Selection::changed, this, &MainWindow::enableActions);
+    connect(&session_.selection(), &Selection::changed, this, [this] {
+        followSelection();
+        enableActions();
+    });
     connect(&session_.undoStack(), &QUndoStack::cleanChanged, this, &MainWindow::enableActions);
     connect(&session_, &SurveySession::exported, this, [this](const QString&) { enableActions(); });
     enableActions();
@@ -402,6 +423,16 @@ void MainWindow::showTree() {
     tree_->header()->setStretchLastSection(false);
     tree_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
     tree_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
+}
+
+void MainWindow::followSelection() {
+    const QString item = session_.selection().item();
+    if (item.isEmpty()) return tree_->clearSelection();
+    const auto found = tree_model_.match(tree_model_.index(0, 0), SurveyTreeModel::IdRole, item, 1,
+                                         Qt::MatchExactly | Qt::MatchRecursive);
+    if (found.isEmpty()) return;
+    tree_->setCurrentIndex(found.front());
+    tree_->scrollTo(found.front());
 }
 
 void MainWindow::showTitle() {

@@ -67,6 +67,7 @@ class MainWindow : public QMainWindow {
     void showPage(QWidget* page);
     void showSurvey();
     void showProducts();
+    void followSelection();
     void showTitle();
     void showTree();
     void enableActions();

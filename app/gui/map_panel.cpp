@@ -19,7 +19,7 @@ MapPanel::MapPanel(Selection& selection, QWidget* parent) : QWidget(parent), vie
     view_->setObjectName("map");
     bar_ = new QToolBar(tr("Map"));
     bar_->setObjectName("map_bar");
-    bar_->setIconSize({20, 20});
+    bar_->setIconSize({18, 18});
     addLayers();
     addColourings();
     addTools();
@@ -131,8 +131,6 @@ void MapPanel::addTools() {
         action->setObjectName(name);
         connect(action, &QAction::triggered, view_, run);
     };
-    add("zoom_in", tr("Zoom in (+)"), [this] { view_->zoomBy(1.5); });
-    add("zoom_out", tr("Zoom out (−)"), [this] { view_->zoomBy(1.0 / 1.5); });
     add("fit", tr("Show all (Home)"), [this] { view_->fit(); });
 }
 

@@ -15,7 +15,8 @@ namespace terrawalk::gui {
 
 namespace {
 
-constexpr double kFitMargin_px = 32.0;
+// Room for the legend at the right.
+constexpr QMarginsF kFitMargins_px(24.0, 24.0, 128.0, 32.0);
 constexpr double kKeyPan_px = 64.0;
 constexpr double kKeyZoom = 1.25;
 /// Farther than this a press was a drag.
@@ -172,7 +173,7 @@ void MapView::fit() {
     transform_.size_px = size();
     const QRectF extent = scene_.extent_m();
     if (extent.isEmpty()) return;
-    transform_.fit(extent, kFitMargin_px);
+    transform_.fit(extent, kFitMargins_px);
     fitted_ = true;
     update();
 }

@@ -48,6 +48,7 @@ SettingEditor::SettingEditor(SurveySession& session, const QString& key, QWidget
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(kGrid_px / 2);
     setToolTip(settingHelp(key));
+    setWhatsThis(toolTip());
     const QString range = text(parameterInfo(key.toStdString()).range);
     if (range == "true, false") {
         buildFlag();

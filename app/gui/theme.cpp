@@ -10,8 +10,9 @@
 
 /// Resources of a static library are found only once somebody asked for them; outside any namespace, as Qt
 /// wants.
-static void registerResources() {
+static void initResources() {
     Q_INIT_RESOURCE(gui);
+    Q_INIT_RESOURCE(translations);
 }
 
 namespace terrawalk::gui {
@@ -107,6 +108,7 @@ QCheckBox { spacing: 8px; }
 QCheckBox::indicator, QTreeView::indicator { width: 14px; height: 14px; border: 1px solid %quiet; border-radius: 3px; background: %base; }
 QCheckBox::indicator:checked, QTreeView::indicator:checked { background: %accent; border-color: %accent; image: url(:/icons/%tick.svg); }
 QCheckBox::indicator:focus { border: 2px solid %accent; }
+QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QLabel#key { border: 1px solid %line; border-radius: 4px; padding: 1px 6px; background: %raised; }
 QLabel#command { background: %base; border: 1px solid %line; border-radius: 4px; padding: 8px; font-family: monospace; }
 QWidget#footer { border-top: 1px solid %line; }
@@ -144,7 +146,7 @@ QString styleSheet(const Colours& c) {
 namespace {
 
 QByteArray svgOf(const QString& name) {
-    registerResources();
+    initResources();
     QFile file(":/icons/" + name + ".svg");
     return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
 }
@@ -164,8 +166,12 @@ void addPixmaps(QIcon& icon, QByteArray svg, const QColor& ink, QIcon::Mode mode
 
 }  // namespace
 
+void registerResources() {
+    initResources();
+}
+
 void applyTheme(Theme theme) {
-    registerResources();
+    initResources();
     current = theme;
     QApplication::setStyle(QStyleFactory::create("Fusion"));
     QApplication::setPalette(paletteOf(colours()));

@@ -1,15 +1,16 @@
 // Pictures of the window's views for people to look at: screenshots FOLDER [SURVEY]. Needs a display, such as
 // Xvfb's.
 #include <QApplication>
+#include <QComboBox>
 #include <QDir>
 #include <QElapsedTimer>
 #include <QSettings>
 #include <QStandardPaths>
 #include <QTabWidget>
 #include <QTest>
-#include <QTranslator>
 #include <cstdio>
 
+#include "app/gui/language.hpp"
 #include "app/gui/main_window.hpp"
 #include "app/gui/theme.hpp"
 
@@ -69,12 +70,15 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
     QTest::mouseClick(&window.map(), Qt::LeftButton, {},
                       window.map().transform().toScreen(extent.center() + QPointF(7.3, 5.1)).toPoint());
     camera.shoot("map");
-    window.map().setLayer(RasterLayer::Uncertainty);
-    window.map().setColouring(TrackColouring::SigmaHeight);
-    window.map().setContoursVisible(true);
+    const auto choose = [&](const char* combo, int row) {
+        window.findChild<QComboBox*>(combo)->setCurrentIndex(row);
+    };
+    choose("layers", 1);
+    choose("colourings", 5);
+    window.findChild<QAction*>("contours")->setChecked(true);
     camera.shoot("uncertainty");
-    window.map().setLayer(RasterLayer::Height);
-    window.map().setColouring(TrackColouring::Fix);
+    choose("layers", 0);
+    choose("colourings", 1);
     const MapTrack& track = session.map()->tracks.back();
     const std::size_t n = track.time_s.size();
     session.selection().select(
@@ -124,9 +128,7 @@ int main(int argc, char** argv) {
     const QString survey = argc > 2 ? argv[2] : TERRAWALK_SOURCE_DIR "/sample_surveys/mango_orchard";
     const bool quick = argc > 3;
     for (const QString& language : quick ? QStringList{"en"} : QStringList{"en", "zh"}) {
-        QTranslator translator;
-        if (language == "zh" && translator.load(":/i18n/terrawalk_zh_CN.qm"))
-            QApplication::installTranslator(&translator);
+        applyLanguage(language);
         for (const Theme theme : {Theme::Light, Theme::Dark}) {
             for (const QSize& size :
                  quick ? QList<QSize>{{1280, 800}} : QList<QSize>{{1280, 800}, {1920, 1080}}) {
