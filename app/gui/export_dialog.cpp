@@ -28,15 +28,15 @@ struct Format {
     const char* label;
 };
 constexpr Format kFormats[] = {
-    {"points", "las", QT_TRANSLATE_NOOP("ExportDialog", "Points, LAS 1.4")},
-    {"points", "ply", QT_TRANSLATE_NOOP("ExportDialog", "Points, PLY")},
-    {"points", "pcd", QT_TRANSLATE_NOOP("ExportDialog", "Points, PCD")},
-    {"points", "csv", QT_TRANSLATE_NOOP("ExportDialog", "Points, CSV")},
-    {"points", "gpkg", QT_TRANSLATE_NOOP("ExportDialog", "Points, GeoPackage")},
-    {"mesh", "stl", QT_TRANSLATE_NOOP("ExportDialog", "Mesh, STL")},
-    {"mesh", "landxml", QT_TRANSLATE_NOOP("ExportDialog", "Mesh, LandXML")},
-    {"mesh", "dxf", QT_TRANSLATE_NOOP("ExportDialog", "Mesh, DXF")},
-    {"dem", "asc", QT_TRANSLATE_NOOP("ExportDialog", "DEM, ESRI ASCII")},
+    {"points", "las", QT_TRANSLATE_NOOP("terrawalk::gui::ExportDialog", "Points, LAS 1.4")},
+    {"points", "ply", QT_TRANSLATE_NOOP("terrawalk::gui::ExportDialog", "Points, PLY")},
+    {"points", "pcd", QT_TRANSLATE_NOOP("terrawalk::gui::ExportDialog", "Points, PCD")},
+    {"points", "csv", QT_TRANSLATE_NOOP("terrawalk::gui::ExportDialog", "Points, CSV")},
+    {"points", "gpkg", QT_TRANSLATE_NOOP("terrawalk::gui::ExportDialog", "Points, GeoPackage")},
+    {"mesh", "stl", QT_TRANSLATE_NOOP("terrawalk::gui::ExportDialog", "Mesh, STL")},
+    {"mesh", "landxml", QT_TRANSLATE_NOOP("terrawalk::gui::ExportDialog", "Mesh, LandXML")},
+    {"mesh", "dxf", QT_TRANSLATE_NOOP("terrawalk::gui::ExportDialog", "Mesh, DXF")},
+    {"dem", "asc", QT_TRANSLATE_NOOP("terrawalk::gui::ExportDialog", "DEM, ESRI ASCII")},
 };
 
 template <class Format, std::size_t n>

@@ -2,8 +2,8 @@
 #include <QCommandLineParser>
 #include <QSettings>
 
+#include "app/gui/desktop.hpp"
 #include "app/gui/language.hpp"
-#include "app/gui/main_window.hpp"
 #include "app/gui/theme.hpp"
 #include "app/pipeline/version.hpp"
 
@@ -41,10 +41,10 @@ int main(int argc, char** argv) {
 
     applyLanguage(parser.isSet("language") ? parser.value("language") : preferredLanguage());
     applyTheme(wantedTheme(parser));
-    MainWindow window;
-    window.show();
+    Desktop desktop;
+    desktop.window().show();
     if (!parser.positionalArguments().isEmpty()) {
-        window.open(parser.positionalArguments().front(), parser.isSet("process"));
+        desktop.window().open(parser.positionalArguments().front(), parser.isSet("process"));
     }
     return QApplication::exec();
 }

@@ -28,6 +28,7 @@
 
 #include "app/gui/accuracy_panel.hpp"
 #include "app/gui/export_dialog.hpp"
+#include "app/gui/language.hpp"
 #include "app/gui/map_panel.hpp"
 #include "app/gui/place_panel.hpp"
 #include "app/gui/recent_surveys.hpp"
@@ -75,7 +76,8 @@ void rememberFolder(const QString& path) {
 
 }  // namespace
 
-MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
+MainWindow::MainWindow(SurveySession& session, MessageModel& messages, QWidget* parent)
+    : QMainWindow(parent), session_(session), message_model_(messages) {
     setObjectName("main_window");
     setWindowIcon(icon("terrawalk"));
     setAcceptDrops(true);
@@ -299,10 +301,8 @@ void MainWindow::buildViewMenu() {
     addAction(menu, "theme", "theme", tr("&Dark or light"), QKeySequence("Ctrl+Shift+D"),
               [this] { setTheme(currentTheme() == Theme::Light ? Theme::Dark : Theme::Light); });
     addAction(menu, "language", "language", tr("中文 / English"), {}, [this] {
-        const bool chinese = QSettings().value("language").toString() == "zh_CN";
-        QSettings().setValue("language", chinese ? "en" : "zh_CN");
-        say(MessageKind::Info, chinese ? QStringLiteral("English from the next start.")
-                                       : QString::fromUtf8("下次启动时使用中文。"));
+        const bool chinese = preferredLanguage().startsWith("zh");
+        Q_EMIT languageAsked(chinese ? "en" : "zh_CN");
     });
 }
 
@@ -574,10 +574,14 @@ void MainWindow::themeIcons() {
     for (const auto& [tab, name] : tabs) views_->setTabIcon(tab, icon(name));
 }
 
-void MainWindow::closeEvent(QCloseEvent* event) {
+void MainWindow::keepLayout() {
     QSettings settings;
     settings.setValue("window/geometry", saveGeometry());
     settings.setValue("window/layout", layout_.isEmpty() ? saveState(kLayoutVersion) : layout_);
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+    keepLayout();
     session_.cancel();
     event->accept();
 }

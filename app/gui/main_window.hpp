@@ -29,13 +29,16 @@ class StepsPanel;
 class MainWindow : public QMainWindow {
     Q_OBJECT
   public:
-    explicit MainWindow(QWidget* parent = nullptr);
+    /// Both must outlive the window.
+    MainWindow(SurveySession& session, MessageModel& messages, QWidget* parent = nullptr);
     ~MainWindow() override;
 
     [[nodiscard]] SurveySession& session() { return session_; }
     [[nodiscard]] MapView& map();
     void open(const QString& path, bool then_process = false);
     void setTheme(Theme theme);
+    /// Remembers where the window and its docks stand.
+    void keepLayout();
 
     /// How a person is asked for a file or folder; a test answers in its place. Empty: cancelled.
     struct Questions {
@@ -43,6 +46,9 @@ class MainWindow : public QMainWindow {
         std::function<QString(const QString& title, const QString& folder)> settings_file;
     };
     Questions questions;
+
+  Q_SIGNALS:
+    void languageAsked(const QString& language);
 
   protected:
     void closeEvent(QCloseEvent* event) override;
@@ -83,9 +89,9 @@ class MainWindow : public QMainWindow {
     void themeIcons();
     void say(MessageKind kind, const QString& text);
 
-    SurveySession session_;
+    SurveySession& session_;
+    MessageModel& message_model_;
     SurveyTreeModel tree_model_;
-    MessageModel message_model_;
     QStackedWidget* pages_ = nullptr;
     StartPage* start_ = nullptr;
     QTabWidget* views_ = nullptr;

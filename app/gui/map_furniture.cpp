@@ -18,10 +18,6 @@ constexpr double kPadding_px = 8.0;
 constexpr double kRampHeight_px = 96.0;
 constexpr double kRampWidth_px = 16.0;
 
-QString translated(const char* text) {
-    return QCoreApplication::translate("MapFurniture", text);
-}
-
 void drawPanel(QPainter& painter, const QRectF& box, const QPalette& palette) {
     QColor ground = palette.color(QPalette::Base), edge = palette.color(QPalette::Mid);
     ground.setAlpha(225);
@@ -77,13 +73,13 @@ QString value(double number, double range) {
 QString titleOf(RasterLayer layer) {
     switch (layer) {
         case RasterLayer::Height:
-            return translated("Height");
+            return QCoreApplication::translate("MapFurniture", "Height");
         case RasterLayer::Uncertainty:
-            return translated("Height, 1 σ");
+            return QCoreApplication::translate("MapFurniture", "Height, 1 σ");
         case RasterLayer::Density:
-            return translated("Density");
+            return QCoreApplication::translate("MapFurniture", "Density");
         case RasterLayer::Source:
-            return translated("Source");
+            return QCoreApplication::translate("MapFurniture", "Source");
         case RasterLayer::None:
             break;
     }
@@ -93,13 +89,13 @@ QString titleOf(RasterLayer layer) {
 QString titleOf(TrackColouring colouring) {
     switch (colouring) {
         case TrackColouring::Speed:
-            return translated("Track, speed");
+            return QCoreApplication::translate("MapFurniture", "Track, speed");
         case TrackColouring::Height:
-            return translated("Track, height");
+            return QCoreApplication::translate("MapFurniture", "Track, height");
         case TrackColouring::SigmaPlan:
-            return translated("Track, plan 1 σ");
+            return QCoreApplication::translate("MapFurniture", "Track, plan 1 σ");
         case TrackColouring::SigmaHeight:
-            return translated("Track, height 1 σ");
+            return QCoreApplication::translate("MapFurniture", "Track, height 1 σ");
         case TrackColouring::Run:
         case TrackColouring::Fix:
             break;
@@ -113,7 +109,7 @@ std::vector<LegendPart> legendParts(const MapScene& scene) {
         parts.push_back({titleOf(scene.raster->layer), scene.raster->legend});
     }
     if (const auto classes = fixClasses(scene); !classes.empty()) {
-        LegendPart part{translated("GNSS fix"), {}};
+        LegendPart part{QCoreApplication::translate("MapFurniture", "GNSS fix"), {}};
         for (const auto& [name, colour] : classes) {
             part.legend.classes << name;
             part.legend.ramp.push_back(colour);
@@ -190,7 +186,8 @@ void drawVectorNote(QPainter& painter, const MapScene& scene, const MapTransform
                     const QPalette& palette) {
     const double scale = vectorScale(scene, transform);
     if (scale <= 0.0) return;
-    const QString note = translated("errors at marks %1 times as long").arg(QString::number(scale, 'g', 3));
+    const QString note = QCoreApplication::translate("MapFurniture", "errors at marks %1 times as long")
+                             .arg(QString::number(scale, 'g', 3));
     const QFontMetricsF metrics(painter.font());
     const double width = metrics.horizontalAdvance(note) + 24 + 3 * kPadding_px;
     const double height = metrics.height() + kPadding_px;

@@ -5,6 +5,7 @@
 #include <QPainter>
 #include <QScrollArea>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 #include "app/gui/theme.hpp"
@@ -81,6 +82,31 @@ QString sourceName(CellSource source) {
             break;
     }
     return {};
+}
+
+/// What stands most in the way of a better height, and what would help.
+QString adviceText(const PlaceReport& place) {
+    if (!place.height_m) {
+        return place.nearest.empty()
+                   ? PlacePanel::tr("Nobody walked here: there is no surface.")
+                   : PlacePanel::tr("There is no surface here: the nearest hit lies %1 away.")
+                         .arg(metres(place.nearest.front().distance_m, 1));
+    }
+    if (!place.parts) return PlacePanel::tr("The survey has too few points to tell how sure this height is.");
+    const SigmaParts& p = *place.parts;
+    const std::pair<double, QString> causes[] = {
+        {p.track_m, PlacePanel::tr("the height of the track")},
+        {p.plan_m, PlacePanel::tr("the track's error in plan, on this slope")},
+        {p.attitude_m, PlacePanel::tr("the direction of the ray, on this slope")},
+        {p.interpolation_m, PlacePanel::tr("the way between the points")}};
+    const auto largest = std::max_element(std::begin(causes), std::end(causes),
+                                          [](const auto& a, const auto& b) { return a.first < b.first; });
+    QString advice = PlacePanel::tr("Most of it is %1 (%2).").arg(largest->second, metres(largest->first));
+    const bool helps = *place.sigma_m - *place.sigma_after_pass_m > 0.05 * *place.sigma_m;
+    return advice + " " +
+           (helps ? PlacePanel::tr("One more pass here would bring %1 down to about %2.")
+                        .arg(metres(*place.sigma_m), metres(*place.sigma_after_pass_m))
+                  : PlacePanel::tr("One more pass here would hardly help."));
 }
 
 void addSigma(QVBoxLayout& column, const PlaceReport& place) {
@@ -180,7 +206,7 @@ void PlacePanel::show(const PlaceReport& place) {
                           QString::number(place.density_per_m2, 'f', 1), sourceName(place.source));
     }
     column.addWidget(label(where, "quiet"));
-    auto* advice = label(QString::fromStdString(adviceText(place)));
+    auto* advice = label(adviceText(place));
     advice->setObjectName("advice");
     column.addWidget(advice);
     if (place.parts) addSigma(column, place);

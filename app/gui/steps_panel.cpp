@@ -145,7 +145,7 @@ QWidget* StepsPanel::buildFooter() {
     connect(process_, &QPushButton::clicked, &session_, &SurveySession::process);
     cancel_ = new QPushButton(tr("Cancel"));
     cancel_->setObjectName("cancel");
-    cancel_->setToolTip(tr("Stop what is running; nothing is lost (Esc)"));
+    cancel_->setToolTip(tr("Stop what is running; nothing is lost (Ctrl+.)"));
     connect(cancel_, &QPushButton::clicked, &session_, &SurveySession::cancel);
     row->addWidget(process_, 1);
     row->addWidget(cancel_);

@@ -238,9 +238,8 @@ bool SurveySession::save() {
     if (!survey_) return false;
     QString problem;
     if (!writeWhole(settingsFile(), toJson(settings_.config()), problem)) {
-        Q_EMIT told(MessageKind::Error,
-                    tr("%1: cannot be written (%2); use \"Save settings as\" for another place")
-                        .arg(text(settingsFile().string()), problem));
+        Q_EMIT told(MessageKind::Error, tr("%1: cannot be written (%2); check that you may write there")
+                                            .arg(text(settingsFile().string()), problem));
         return false;
     }
     saved_ = settings_;

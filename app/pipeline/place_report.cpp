@@ -1,7 +1,5 @@
 #include "app/pipeline/place_report.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -101,32 +99,6 @@ PlaceReport placeReport(const Survey& survey, const Products& products, const Su
     place.height_m = products.dem.heights_m[*cell];
     addSigma(products, map, *cell, place);
     return place;
-}
-
-std::string adviceText(const PlaceReport& place) {
-    if (!place.height_m) {
-        return place.nearest.empty()
-                   ? "Nobody walked here: there is no surface."
-                   : fmt::format("There is no surface here: the nearest hit lies {:.1f} m away.",
-                                 place.nearest.front().distance_m);
-    }
-    if (!place.parts) return "The survey has too few points to tell how sure this height is.";
-    const SigmaParts& p = *place.parts;
-    const std::pair<double, const char*> causes[] = {
-        {p.track_m, "the height of the track"},
-        {p.plan_m, "the track's error in plan, on this slope"},
-        {p.attitude_m, "the direction of the ray, on this slope"},
-        {p.interpolation_m, "the way between the points"}};
-    const auto largest = std::max_element(std::begin(causes), std::end(causes));
-    std::string advice = fmt::format("Most of it is {} ({:.2f} m).", largest->second, largest->first);
-    if (place.sigma_after_pass_m) {
-        const double gain_m = *place.sigma_m - *place.sigma_after_pass_m;
-        advice += gain_m > 0.05 * *place.sigma_m
-                      ? fmt::format(" One more pass here would bring {:.2f} m down to about {:.2f} m.",
-                                    *place.sigma_m, *place.sigma_after_pass_m)
-                      : " One more pass here would hardly help.";
-    }
-    return advice;
 }
 
 }  // namespace terrawalk

@@ -51,7 +51,4 @@ struct PlaceReport {
 [[nodiscard]] PlaceReport placeReport(const Survey& survey, const Products& products, const SurveyMap& map,
                                       const Eigen::Vector2d& at_m);
 
-/// What stands most in the way of a better height there, and what would help, in a sentence or two.
-[[nodiscard]] std::string adviceText(const PlaceReport& place);
-
 }  // namespace terrawalk

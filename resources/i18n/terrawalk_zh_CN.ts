@@ -9,41 +9,45 @@
     </message>
 </context>
 <context>
-    <name>ExportDialog</name>
+    <name>MapFurniture</name>
     <message>
-        <source>Points, LAS 1.4</source>
+        <source>Height</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Points, PLY</source>
+        <source>Height, 1 σ</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Points, PCD</source>
+        <source>Density</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Points, CSV</source>
+        <source>Source</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Points, GeoPackage</source>
+        <source>Track, speed</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Mesh, STL</source>
+        <source>Track, height</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Mesh, LandXML</source>
+        <source>Track, plan 1 σ</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>Mesh, DXF</source>
+        <source>Track, height 1 σ</source>
         <translation type="unfinished"></translation>
     </message>
     <message>
-        <source>DEM, ESRI ASCII</source>
+        <source>GNSS fix</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>errors at marks %1 times as long</source>
         <translation type="unfinished"></translation>
     </message>
 </context>
@@ -71,6 +75,84 @@
     </message>
     <message>
         <source>not told</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>RasterPicture</name>
+    <message>
+        <source>measured</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>points/m²</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
+    <name>Steps</name>
+    <message>
+        <source>Import</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Tune</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Fuse</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Method</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>GNSS heights</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Barometer</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Optical flow</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Clean</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Longest range</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Drop outliers</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Drop plants</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Surface</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Cell size</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Terrace edges</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Check</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Export</source>
         <translation type="unfinished"></translation>
     </message>
 </context>
@@ -224,6 +306,42 @@
     </message>
     <message>
         <source>An earlier export there is replaced in one step.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Points, LAS 1.4</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Points, PLY</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Points, PCD</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Points, CSV</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Points, GeoPackage</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Mesh, STL</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Mesh, LandXML</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Mesh, DXF</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>DEM, ESRI ASCII</source>
         <translation type="unfinished"></translation>
     </message>
 </context>

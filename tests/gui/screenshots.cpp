@@ -10,8 +10,8 @@
 #include <QTest>
 #include <cstdio>
 
+#include "app/gui/desktop.hpp"
 #include "app/gui/language.hpp"
-#include "app/gui/main_window.hpp"
 #include "app/gui/theme.hpp"
 
 namespace {
@@ -48,7 +48,8 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
     QSettings().clear();
     QSettings().setValue("theme", theme == Theme::Dark ? "dark" : "light");
     applyTheme(theme);
-    MainWindow window;
+    Desktop desktop;
+    MainWindow& window = desktop.window();
     window.resize(size);
     window.show();
     QTest::qWait(100);

@@ -19,8 +19,9 @@
 #include <QTreeView>
 #include <filesystem>
 
+#include "app/gui/desktop.hpp"
 #include "app/gui/export_dialog.hpp"
-#include "app/gui/main_window.hpp"
+#include "app/gui/language.hpp"
 #include "app/gui/start_page.hpp"
 #include "app/gui/theme.hpp"
 
@@ -72,14 +73,15 @@ class WindowTest : public QObject {
     [[nodiscard]] QPoint onScreen(const Eigen::Vector3d& map_m) const {
         return window_->map().transform().toScreen({map_m.x(), map_m.y()}).toPoint();
     }
-    [[nodiscard]] SurveySession& session() const { return window_->session(); }
+    [[nodiscard]] SurveySession& session() const { return desktop_->session(); }
     [[nodiscard]] QAction& action(const char* name) const { return *window_->findChild<QAction*>(name); }
     [[nodiscard]] QString messages() const;
     [[nodiscard]] bool idle() const { return !session().busy(); }
 
     std::unique_ptr<QTemporaryDir> scratch_;
     QString sample_;  ///< a copy that may be written beside
-    std::unique_ptr<MainWindow> window_;
+    std::unique_ptr<Desktop> desktop_;
+    MainWindow* window_ = nullptr;  ///< the desktop's
 };
 
 void WindowTest::initTestCase() {
@@ -97,16 +99,18 @@ void WindowTest::init() {
     sample_ = scratch_->filePath("plot");
     fs::copy(TERRAWALK_SOURCE_DIR "/sample_surveys/quick_plot", sample_.toStdString(),
              fs::copy_options::recursive);
-    window_ = std::make_unique<MainWindow>();
+    applyLanguage("en");
+    desktop_ = std::make_unique<Desktop>();
+    window_ = &desktop_->window();
     window_->resize(1280, 800);
     window_->show();
-    QVERIFY(QTest::qWaitForWindowExposed(window_.get()));
+    QVERIFY(QTest::qWaitForWindowExposed(window_));
     // Nobody else makes it the active one where no window manager runs, and keys go to the active one.
-    QApplication::setActiveWindow(window_.get());
+    QApplication::setActiveWindow(window_);
 }
 
 void WindowTest::cleanup() {
-    window_.reset();
+    desktop_.reset();
     scratch_.reset();
 }
 
@@ -347,8 +351,19 @@ void WindowTest::themeAndLanguageSwitch() {
     QCOMPARE(QSettings().value("theme").toString(), QString("dark"));
     action("theme").trigger();
     QCOMPARE(currentTheme(), Theme::Light);
+    const auto products = session().products();
+    const QString english = window_->findChild<QTabWidget*>("views")->tabText(0);
     action("language").trigger();
-    QCOMPARE(QSettings().value("language").toString(), QString("zh_CN"));
+    QTRY_VERIFY(&desktop_->window() != window_);
+    window_ = &desktop_->window();
+    QVERIFY(window_->isVisible());
+    QCOMPARE(window_->findChild<QTabWidget*>("views")->tabText(0), QString::fromUtf8("地图"));
+    QVERIFY(window_->findChild<QTabWidget*>("views")->tabText(0) != english);
+    // Nothing of the work is lost.
+    QCOMPARE(session().products(), products);
+    QVERIFY(window_->map().isVisible());
+    QCOMPARE(window_->map().scene().products, products);
+    QVERIFY(messages().contains("Processed."));
 }
 
 void WindowTest::badFilesAreErrorsInTheMessagesAndLoseNothing() {
@@ -374,10 +389,10 @@ void WindowTest::droppedFolderIsOpened() {
     QMimeData data;
     data.setUrls({QUrl::fromLocalFile(sample_)});
     QDragEnterEvent enter(QPoint(100, 100), Qt::CopyAction, &data, Qt::LeftButton, {});
-    QApplication::sendEvent(window_.get(), &enter);
+    QApplication::sendEvent(window_, &enter);
     QVERIFY(enter.isAccepted());
     QDropEvent drop(QPointF(100, 100), Qt::CopyAction, &data, Qt::LeftButton, {});
-    QApplication::sendEvent(window_.get(), &drop);
+    QApplication::sendEvent(window_, &drop);
     QTRY_VERIFY_WITH_TIMEOUT(session().survey() && idle(), kLong_ms);
 }
 
@@ -399,11 +414,11 @@ void WindowTest::earlierRunsCanBeGoneBackTo() {
 
 void WindowTest::keysAloneSuffice() {
     openSample();
-    QTest::keyClick(window_.get(), Qt::Key_F5);
+    QTest::keyClick(window_, Qt::Key_F5);
     QTRY_VERIFY_WITH_TIMEOUT(session().products() && idle(), kLong_ms);
-    QTest::keyClick(window_.get(), Qt::Key_2, Qt::ControlModifier);
+    QTest::keyClick(window_, Qt::Key_2, Qt::ControlModifier);
     QCOMPARE(window_->findChild<QTabWidget*>("views")->currentIndex(), 1);
-    QTest::keyClick(window_.get(), Qt::Key_1, Qt::ControlModifier);
+    QTest::keyClick(window_, Qt::Key_1, Qt::ControlModifier);
     MapView& map = window_->map();
     map.setFocus();
     const double scale = map.transform().pixels_per_m;
@@ -411,7 +426,7 @@ void WindowTest::keysAloneSuffice() {
     QVERIFY(map.transform().pixels_per_m > scale);
     QTest::keyClick(&map, Qt::Key_Home);
     QCOMPARE(map.transform().pixels_per_m, scale);
-    QTest::keyClick(window_.get(), Qt::Key_F1);
+    QTest::keyClick(window_, Qt::Key_F1);
     QVERIFY(QApplication::activeModalWidget() != nullptr);
     QTest::keyClick(QApplication::activeModalWidget(), Qt::Key_Escape);
     QTRY_VERIFY(QApplication::activeModalWidget() == nullptr);
@@ -427,10 +442,10 @@ namespace {
 /// The part of the test that is killed: edits a survey and waits for its end.
 int editAndWait(const QString& survey) {
     using namespace terrawalk::gui;
-    MainWindow window;
-    window.open(survey);
-    while (!window.session().survey()) QTest::qWait(10);
-    window.session().changeSetting("surface.cell_m", "0.75");
+    Desktop desktop;
+    desktop.window().open(survey);
+    while (!desktop.session().survey()) QTest::qWait(10);
+    desktop.session().changeSetting("surface.cell_m", "0.75");
     QTest::qWait(1500);  // longer than the autosave takes
     std::printf("edited\n");
     std::fflush(stdout);
