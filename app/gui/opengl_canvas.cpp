@@ -19,6 +19,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kBuildTime{12};
 constexpr int kSamples = 4;
+constexpr const char* kSoftwareRenderers[] = {"llvmpipe", "softpipe", "swrast", "swiftshader",
+                                              "basic render"};
 
 QSurfaceFormat wantedFormat() {
     QSurfaceFormat format;
@@ -69,7 +71,7 @@ float cover(float level) {
 void main() {
     bool on_wall = tint.a > 0.5;
     float lit = max(dot(normalize(normal), to_light), 0.0);
-    vec3 own = on_wall ? wall * (0.78 + 0.22 * lit) : tint.rgb * (0.42 + 0.72 * lit);
+    vec3 own = on_wall ? wall * (0.78 + 0.22 * lit) : tint.rgb * (0.48 + 0.66 * lit);
     if (interval_m > 0.0) {
         float line = cover((height_m + floor_m) / interval_m);
         if (!on_wall) own *= 1.0 - 0.35 * line;
@@ -374,7 +376,10 @@ class GlWidget final : public QOpenGLWidget, private QOpenGLExtraFunctions {
         ground_->setUniformValue("exaggeration", static_cast<float>(frame_.exaggeration));
         ground_->setUniformValue("to_light", qt(frame_.to_light));
         ground_->setUniformValue("wall", rgb(frame_.wall));
-        ground_->setUniformValue("interval_m", static_cast<float>(frame_.contour_interval_m));
+        // On a processor contours cost too much of a frame that must be quick.
+        const bool contours = !(frame_.moving && openGl() == OpenGlKind::Software);
+        ground_->setUniformValue("interval_m",
+                                 contours ? static_cast<float>(frame_.contour_interval_m) : 0.0F);
         const double whole_m = std::max(5.0 * frame_.contour_interval_m, 1e-9);
         ground_->setUniformValue("floor_m",
                                  static_cast<float>(std::fmod(frame_.scene->origin_map_m().z(), whole_m)));
@@ -469,29 +474,40 @@ class OpenGlCanvas final : public TerrainCanvas {
     QPointer<GlWidget> widget_;
 };
 
-bool tryOpenGl() {
+/// Whether a processor does the work of the graphics hardware.
+bool drawsInSoftware(QOpenGLContext& context) {
+    const auto* name = reinterpret_cast<const char*>(context.functions()->glGetString(GL_RENDERER));
+    const QString renderer = QString::fromLatin1(name).toLower();
+    return std::any_of(std::begin(kSoftwareRenderers), std::end(kSoftwareRenderers),
+                       [&](const char* known) { return renderer.contains(QLatin1String(known)); });
+}
+
+OpenGlKind tryOpenGl() {
     const QString platform = QGuiApplication::platformName();
-    if (platform == "offscreen" || platform == "minimal" || platform.startsWith("linuxfb")) return false;
+    if (platform == "offscreen" || platform == "minimal" || platform.startsWith("linuxfb")) {
+        return OpenGlKind::None;
+    }
     QOpenGLContext context;
     context.setFormat(wantedFormat());
-    if (!context.create() || context.format().version() < qMakePair(3, 3)) return false;
+    if (!context.create() || context.format().version() < qMakePair(3, 3)) return OpenGlKind::None;
     QOffscreenSurface surface;
     surface.setFormat(context.format());
     surface.create();
-    if (!surface.isValid() || !context.makeCurrent(&surface)) return false;
+    if (!surface.isValid() || !context.makeCurrent(&surface)) return OpenGlKind::None;
     QOpenGLShaderProgram trial;
     const bool works = trial.addShaderFromSourceCode(QOpenGLShader::Vertex, kGroundVertex) &&
                        trial.addShaderFromSourceCode(QOpenGLShader::Fragment, kGroundFragment) &&
                        trial.link();
+    const bool software = works && drawsInSoftware(context);
     context.doneCurrent();
-    return works;
+    return !works ? OpenGlKind::None : software ? OpenGlKind::Software : OpenGlKind::Hardware;
 }
 
 }  // namespace
 
-bool openGlWorks() {
-    static const bool works = tryOpenGl();
-    return works;
+OpenGlKind openGl() {
+    static const OpenGlKind kind = tryOpenGl();
+    return kind;
 }
 
 std::unique_ptr<TerrainCanvas> makeOpenGlCanvas(QWidget* parent) {

@@ -12,7 +12,8 @@ namespace {
 
 // Half the angle of view from top to bottom: narrow, so that distances deceive little.
 const double kHalfView = std::tan(radians(15.0));
-constexpr double kFitMargin = 1.06;
+// What is left for the points where margins leave little.
+constexpr double kLeastRoom_px = 80.0;
 constexpr double kOrbitPerPixel_rad = 0.006;
 // Below the ground there is nothing to see.
 const double kLowest_rad = radians(2.0);
@@ -114,21 +115,18 @@ void OrbitCamera::turn(ViewFrom side) {
     elevation_rad = radians(12.0);
 }
 
-void OrbitCamera::fit(std::span<const Eigen::Vector3d> points_m) {
+void OrbitCamera::fit(std::span<const Eigen::Vector3d> points_m, const ViewMargins& margins_px) {
     if (points_m.empty()) return;
-    const double high = kHalfView, wide = kHalfView * viewport_px.x() / viewport_px.y();
+    const Eigen::Vector2d room_px = (viewport_px - Eigen::Vector2d(margins_px.left + margins_px.right,
+                                                                   margins_px.top + margins_px.bottom))
+                                        .cwiseMax(kLeastRoom_px);
+    const Eigen::Vector2d middle_px =
+        viewport_px / 2.0 +
+        Eigen::Vector2d(margins_px.left - margins_px.right, margins_px.top - margins_px.bottom) / 2.0;
+    const Eigen::Vector2d half_view = kHalfView * room_px / viewport_px.y();
     target_m = Eigen::Vector3d::Zero();
-    // What is near looks larger, so the middle of what is seen moves as the distance does: a few rounds
-    // settle.
+    // What is near looks larger, so the middle of what is seen moves as the distance does: rounds settle it.
     for (int round = 0; round < 8; ++round) {
-        double needed_m = 0.0;
-        for (const Eigen::Vector3d& p : points_m) {
-            const Eigen::Vector3d off = p - target_m;
-            const double beyond = off.dot(forward());
-            needed_m = std::max({needed_m, std::abs(off.dot(right())) * kFitMargin / wide - beyond,
-                                 std::abs(off.dot(up())) * kFitMargin / high - beyond});
-        }
-        distance_m = std::max(needed_m, 1e-3 * radius_m);
         Eigen::Vector2d least = Eigen::Vector2d::Constant(HUGE_VAL), greatest = -least;
         for (const Eigen::Vector3d& p : points_m) {
             const auto seen = project(p);
@@ -136,8 +134,18 @@ void OrbitCamera::fit(std::span<const Eigen::Vector3d> points_m) {
             least = least.cwiseMin(seen->head<2>());
             greatest = greatest.cwiseMax(seen->head<2>());
         }
-        if (!(least.x() <= greatest.x())) return;
-        pan((viewport_px - (least + greatest)) / 2.0);
+        if (least.x() <= greatest.x()) pan(middle_px - (least + greatest) / 2.0);
+        double needed_m = 0.0;
+        const Eigen::Vector3d middle_m = target_m + ((middle_px - viewport_px / 2.0).x() * right() -
+                                                     (middle_px - viewport_px / 2.0).y() * up()) /
+                                                        pixelsPerMetre(distance_m);
+        for (const Eigen::Vector3d& p : points_m) {
+            const Eigen::Vector3d off = p - middle_m;
+            const double beyond = off.dot(forward());
+            needed_m = std::max({needed_m, std::abs(off.dot(right())) / half_view.x() - beyond,
+                                 std::abs(off.dot(up())) / half_view.y() - beyond});
+        }
+        distance_m = std::max(needed_m, 1e-3 * radius_m);
     }
 }
 

@@ -14,6 +14,11 @@ struct SightLine {
     Eigen::Vector3d direction;  ///< length one
 };
 
+/// Pixels to keep clear on each side of a picture.
+struct ViewMargins {
+    double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;
+};
+
 /// A camera that looks at a target from around it. Frame of the scene: metres, x east, y north, z up. Pixels
 /// count from the upper left, y down. A value; all functions are pure but for those that move it.
 class OrbitCamera {
@@ -44,8 +49,9 @@ class OrbitCamera {
     void zoom(double factor, const Eigen::Vector3d& fixed_m);
     /// Turns to a side; distance and target stay.
     void turn(ViewFrom side);
-    /// Moves so that all points are in view, whatever way it looks. Does nothing without points.
-    void fit(std::span<const Eigen::Vector3d> points_m);
+    /// Moves so that all points are in view within the margins, whatever way it looks. Does nothing without
+    /// points.
+    void fit(std::span<const Eigen::Vector3d> points_m, const ViewMargins& margins_px);
 };
 
 }  // namespace terrawalk::gui

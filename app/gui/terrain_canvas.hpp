@@ -26,9 +26,11 @@ class TerrainCanvas {
     std::function<void(std::size_t triangles, double ms, bool complete)> drawn;
 };
 
-/// Whether a picture by OpenGL 3.3 can be had here. Asks once, which takes a while. On platforms without
-/// windows Qt's own widget for it crashes, so nobody tries there.
-[[nodiscard]] bool openGlWorks();
+/// What OpenGL 3.3 there is: none, one that a processor imitates, or one on graphics hardware.
+enum class OpenGlKind { None, Software, Hardware };
+/// Asks once, which takes a while. On platforms without windows Qt's own widget for it crashes, so there
+/// nobody tries.
+[[nodiscard]] OpenGlKind openGl();
 [[nodiscard]] std::unique_ptr<TerrainCanvas> makeOpenGlCanvas(QWidget* parent);
 [[nodiscard]] std::unique_ptr<TerrainCanvas> makeSoftwareCanvas(QWidget* parent);
 

@@ -53,7 +53,7 @@ inline constexpr double kOverlayLift = 0.004;
 /// How light the ground looks, 0..1 and above, by the cosine of its normal with the light.
 [[nodiscard]] constexpr double shade(double cosine, bool wall) {
     const double lit = cosine > 0.0 ? cosine : 0.0;
-    return wall ? 0.78 + 0.22 * lit : 0.42 + 0.72 * lit;
+    return wall ? 0.78 + 0.22 * lit : 0.48 + 0.66 * lit;
 }
 
 /// How many triangles may be drawn so that a frame keeps its time, learnt from the frames before.

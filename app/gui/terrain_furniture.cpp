@@ -53,7 +53,7 @@ void drawEdgeNumbers(QPainter& painter, const TerrainFrame& frame, const QPalett
     };
     const QFontMetricsF metrics(painter.font());
     std::vector<QRectF> taken;
-    for (double at = from; at <= to + grid.step_m * 1e-6; at += grid.step_m) {
+    for (const double at : wholeSteps(from, to, grid.step_m)) {
         const auto foot = place(at, 0.0), beyond = place(at, grid.step_m * 0.2);
         if (!foot || !beyond) continue;
         QPointF away = *beyond - *foot;
@@ -99,7 +99,7 @@ void drawHeights(QPainter& painter, const TerrainFrame& frame, const QPalette& p
     const double length_px = std::hypot(head->x() - foot->x(), head->y() - foot->y());
     const double tick_m =
         std::max(roundBelow((top_m - floor_m) / std::max(1.0, length_px / 28.0) * 1.5), 0.01);
-    for (double h = std::ceil(floor_m / tick_m) * tick_m; h <= top_m + 1e-9; h += tick_m) {
+    for (const double h : wholeSteps(floor_m, top_m, tick_m)) {
         const auto tick = at(h);
         if (!tick) continue;
         painter.setPen(QPen(palette.color(QPalette::Text), 1.0));
@@ -169,6 +169,10 @@ void drawNote(QPainter& painter, QPointF lower_left, const QString& text, const 
 
 }  // namespace
 
+double pinHeight(const TerrainFrame& frame) {
+    return kPinHeight_px * std::cos(frame.camera.elevation_rad);
+}
+
 QString exaggerationText(double exaggeration) {
     if (std::abs(exaggeration - 1.0) < 1e-9) return {};
     return QString::fromUtf8("× ") + QString::number(exaggeration, 'g', 3);
@@ -195,7 +199,7 @@ void drawPins(QPainter& painter, const TerrainFrame& frame, const MapScene& map,
         const bool highlighted = map.highlighted == name;
         const Eigen::Vector3d at_m = frame.scene->toScene(placed.map_m, frame.exaggeration);
         painter.setOpacity(!frame.moving && !highlighted && hidden(frame, at_m) ? 0.3 : 1.0);
-        const QPointF head = *foot - QPointF(0, kPinHeight_px);
+        const QPointF head = *foot - QPointF(0, pinHeight(frame));
         painter.setPen(QPen(QColor(255, 255, 255, 180), 3.0));
         painter.drawLine(*foot, head);
         painter.setPen(QPen(QColor(20, 24, 28), 1.4));

@@ -12,6 +12,8 @@ namespace terrawalk::gui {
 void drawAxes(QPainter& painter, const TerrainFrame& frame, const QPalette& palette);
 /// Marks as pins; those behind the ground are faint.
 void drawPins(QPainter& painter, const TerrainFrame& frame, const MapScene& map, const QPalette& palette);
+/// How far the head of a pin stands above its foot on the screen: from above they are one.
+[[nodiscard]] double pinHeight(const TerrainFrame& frame);
 /// A ring about a place.
 void drawPick(QPainter& painter, const TerrainFrame& frame, const Eigen::Vector3d& map_m);
 /// A compass that turns with the view, legends below it, and by how much heights are stretched.

@@ -15,6 +15,7 @@ namespace {
 constexpr double kSmallestStep = 1.0 / 2500.0;
 constexpr std::size_t kMostDots = 200'000;
 constexpr double kFloorLines = 5.0;
+constexpr double kFloorBeyond = 0.08;  ///< of the survey's half size
 
 Eigen::Vector3f inScene(const TerrainScene& scene, const Eigen::Vector3d& map_m) {
     return scene.toScene(map_m, 1.0).cast<float>();
@@ -112,13 +113,16 @@ void addFloor(const TerrainScene& scene, const QPalette& palette, std::vector<Sc
         }
         lines.push_back(std::move(line));
     };
-    const double slack = grid.step_m * 1e-6;
-    for (double x = grid.west_m; x <= grid.east_m + slack; x += grid.step_m) {
+    for (const double x : wholeSteps(grid.west_m, grid.east_m, grid.step_m)) {
         add(x, grid.south_m, x, grid.north_m);
     }
-    for (double y = grid.south_m; y <= grid.north_m + slack; y += grid.step_m) {
+    for (const double y : wholeSteps(grid.south_m, grid.north_m, grid.step_m)) {
         add(grid.west_m, y, grid.east_m, y);
     }
+    add(grid.west_m, grid.south_m, grid.east_m, grid.south_m);
+    add(grid.west_m, grid.north_m, grid.east_m, grid.north_m);
+    add(grid.west_m, grid.south_m, grid.west_m, grid.north_m);
+    add(grid.east_m, grid.south_m, grid.east_m, grid.north_m);
 }
 
 }  // namespace
@@ -139,20 +143,21 @@ QRgb pointColour(GroundPointState state) {
     }
 }
 
+std::vector<double> wholeSteps(double from, double to, double step) {
+    std::vector<double> list;
+    for (double at = std::ceil(from / step) * step; at <= to; at += step) list.push_back(at);
+    return list;
+}
+
 FloorGrid floorGrid(const TerrainScene& scene) {
     const Eigen::Vector2d half = scene.halfSize_m().head<2>(), middle = scene.origin_map_m().head<2>();
     FloorGrid grid;
     grid.step_m = roundBelow(2.0 * std::max(half.maxCoeff(), 0.5) / kFloorLines * 1.3);
-    const auto below = [&](double at) {
-        return std::floor(at / grid.step_m - 0.15) * grid.step_m;
-    };
-    const auto above = [&](double at) {
-        return std::ceil(at / grid.step_m + 0.15) * grid.step_m;
-    };
-    grid.west_m = below(middle.x() - half.x());
-    grid.east_m = above(middle.x() + half.x());
-    grid.south_m = below(middle.y() - half.y());
-    grid.north_m = above(middle.y() + half.y());
+    const double beyond_m = kFloorBeyond * half.maxCoeff();
+    grid.west_m = middle.x() - half.x() - beyond_m;
+    grid.east_m = middle.x() + half.x() + beyond_m;
+    grid.south_m = middle.y() - half.y() - beyond_m;
+    grid.north_m = middle.y() + half.y() + beyond_m;
     return grid;
 }
 

@@ -20,11 +20,13 @@ struct OverlayChoice {
     std::optional<TrackStretch> stretch;
 };
 
-/// Lines on the floor at round coordinates.
+/// The floor, with lines at round coordinates.
 struct FloorGrid {
     double step_m = 10.0;
-    double west_m = 0.0, east_m = 0.0, south_m = 0.0, north_m = 0.0;  ///< on the map, whole steps
+    double west_m = 0.0, east_m = 0.0, south_m = 0.0, north_m = 0.0;  ///< on the map
 };
+/// Multiples of the step between two ends.
+[[nodiscard]] std::vector<double> wholeSteps(double from, double to, double step);
 [[nodiscard]] FloorGrid floorGrid(const TerrainScene& scene);
 
 /// Tracks laid on the surface, ground points where they were measured, and the grid of the floor. Pure.

@@ -35,6 +35,8 @@ constexpr double kFirstLightAzimuth_deg = 315.0, kFirstLightHeight_deg = 45.0;
 constexpr double kKeyTurn_px = 24.0, kKeyPan_px = 48.0, kKeyZoom = 1.25;
 constexpr double kClickSlack_px = 4.0;
 constexpr double kNearMark_px = 12.0;
+// Room for the numbers along the floor, and for the legends.
+constexpr ViewMargins kFurniture_px{88.0, 40.0, 120.0, 48.0};
 constexpr int kRest_ms = 180;
 constexpr double kContoursInRange = 16.0;
 
@@ -99,7 +101,10 @@ TerrainView::TerrainView(Selection& selection, TerrainRenderer renderer, QWidget
     rest_.setSingleShot(true);
     rest_.setInterval(kRest_ms);
     connect(&rest_, &QTimer::timeout, this, [this] { renew(false); });
-    connect(&watcher_, &QFutureWatcherBase::finished, this, [this] { take(watcher_.result()); });
+    connect(&watcher_, &QFutureWatcherBase::finished, this, [this] {
+        // Where the survey was closed meanwhile there is none.
+        if (watcher_.future().resultCount() > 0) take(watcher_.result());
+    });
     connect(&selection_, &Selection::changed, this, [this] {
         map_.highlighted = selection_.item();
         renewOverlay();
@@ -190,6 +195,7 @@ void TerrainView::build() {
     const bool some = map_.products && survey_ &&
                       std::any_of(map_.products->dem.heights_m.begin(), map_.products->dem.heights_m.end(),
                                   [](float h) { return !std::isnan(h); });
+    building_ = some;
     if (!some) {
         watcher_.setFuture({});
         frame_.scene.reset();
@@ -222,6 +228,7 @@ void TerrainView::build() {
 
 void TerrainView::take(Built built) {
     if (!built.scene) return;
+    building_ = false;
     // Another place needs another view; the same place, processed again, keeps it.
     const bool same_place =
         frame_.scene && (frame_.scene->origin_map_m() - built.scene->origin_map_m()).head<2>().norm() <
@@ -251,7 +258,9 @@ void TerrainView::ensureCanvas() {
     if (!frame_.scene) return;
     // No sooner than it is seen: a context for OpenGL takes a while.
     if (!canvas_ && isVisible()) {
-        const bool opengl = renderer_ == TerrainRenderer::Automatic && openGlWorks();
+        const bool opengl = renderer_ == TerrainRenderer::Automatic ? openGl() == OpenGlKind::Hardware
+                            : renderer_ == TerrainRenderer::OpenGl  ? openGl() != OpenGlKind::None
+                                                                    : false;
         canvas_ = opengl ? makeOpenGlCanvas(this) : makeSoftwareCanvas(this);
         canvas_->drawn = [this](std::size_t triangles, double ms, bool complete) {
             Q_EMIT drawn(triangles, ms, complete);
@@ -283,7 +292,15 @@ void TerrainView::layOut() {
 
 void TerrainView::fit() {
     if (!frame_.scene) return;
-    frame_.camera.fit(frame_.scene->corners(frame_.exaggeration));
+    auto corners = frame_.scene->corners(frame_.exaggeration);
+    const FloorGrid floor = floorGrid(*frame_.scene);
+    for (const double x : {floor.west_m, floor.east_m}) {
+        for (const double y : {floor.south_m, floor.north_m}) {
+            corners.push_back(
+                frame_.scene->toScene({x, y, frame_.scene->origin_map_m().z()}, frame_.exaggeration));
+        }
+    }
+    frame_.camera.fit(corners, kFurniture_px);
     fitted_ = true;
 }
 
@@ -429,7 +446,7 @@ void TerrainView::pickAt(QPointF px) {
         const auto foot = frame_.camera.project(frame_.scene->toScene(placed.map_m, frame_.exaggeration));
         if (!marks_ || !foot) continue;
         // The head of its pin stands above it.
-        if (std::hypot(foot->x() - px.x(), foot->y() - 22.0 - px.y()) > kNearMark_px) continue;
+        if (std::hypot(foot->x() - px.x(), foot->y() - pinHeight(frame_) - px.y()) > kNearMark_px) continue;
         const QString name = QString::fromStdString(placed.mark.name);
         if (!map_.hidden_marks.contains(name)) {
             selection_.selectItem(name);

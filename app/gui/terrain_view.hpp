@@ -19,8 +19,9 @@ namespace terrawalk::gui {
 
 class PointCard;
 
-/// How the 3-D view draws: by OpenGL where that works, unless told otherwise.
-enum class TerrainRenderer { Automatic, Software };
+/// How the 3-D view draws: by graphics hardware where there is some. Where a processor would only imitate it,
+/// the program's own rasteriser is several times faster. OpenGL that is asked for and not there is Software.
+enum class TerrainRenderer { Automatic, OpenGl, Software };
 
 /// The surface in three dimensions. Left drag turns, right or shift drag moves, the wheel comes nearer at the
 /// cursor, a click tells of a place, a double click looks at it; arrow keys, plus, minus and Home do the
@@ -63,7 +64,7 @@ class TerrainView : public QWidget {
     [[nodiscard]] RasterLayer layer() const { return layer_; }
     [[nodiscard]] std::optional<Eigen::Vector3d> picked_map_m() const { return picked_map_m_; }
     /// Whether the surface is still being made ready.
-    [[nodiscard]] bool building() const { return watcher_.isRunning(); }
+    [[nodiscard]] bool building() const { return building_; }
     /// Nothing before the view was first shown with a surface.
     [[nodiscard]] TerrainCanvas* canvas() const { return canvas_.get(); }
 
@@ -130,6 +131,7 @@ class TerrainView : public QWidget {
     QPointF pressed_at_, last_at_;
     Qt::MouseButton held_ = Qt::NoButton;
     bool dragging_ = false;
+    bool building_ = false;
     bool fitted_ = false;  ///< until a person moves the view, it keeps showing all
     bool tracks_ = true, points_ = false, marks_ = true, contours_ = true;
 };
