@@ -28,8 +28,9 @@ namespace {
 constexpr double kWheelZoom = 1.25;
 constexpr double kYMargin = 0.06;
 constexpr double kDragSlack_px = 4.0;
-constexpr double kDot_px = 4.0, kMarkDot_px = 6.0;
+constexpr double kDot_px = 3.5, kMarkDot_px = 6.0;
 constexpr double kYTicks = 5.0;
+constexpr double kAboveLegend_px = 12.0, kBelowPanel_px = 24.0;
 constexpr double kLine_px = 1.5;
 constexpr std::size_t kMostWidePoints = 600;
 // More categories than that have no room for their names.
@@ -147,13 +148,6 @@ PlotCanvas::PlotCanvas(QWidget* parent) : QWidget(parent), parts_(std::make_uniq
     parts_->view->setFocusPolicy(Qt::NoFocus);
     parts_->view->setMouseTracking(true);
     parts_->view->setAutoAddPlottableToLegend(false);
-    // Only now is it known how much of a panel its legend takes.
-    connect(parts_->view, &QCustomPlot::afterLayout, this, [this] {
-        for (std::size_t i = 0; i < parts_->panels.size(); ++i) {
-            parts_->scaleY(i);
-            parts_->refillDots(i);
-        }
-    });
     parts_->view->installEventFilter(this);
     parts_->words = new QLabel;
     parts_->words->setObjectName("quiet");
@@ -356,7 +350,7 @@ void PlotCanvas::Parts::addSeries(Panel& panel, const PlotSeries& series) {
     shown.graph->setAdaptiveSampling(false);
     if (series.style == SeriesStyle::Dots) {
         QColor ink = colour;
-        if (series.ink == SeriesInk::Quiet) ink.setAlpha(110);
+        if (series.ink == SeriesInk::Quiet) ink.setAlpha(60);
         shown.graph->setLineStyle(QCPGraph::lsNone);
         shown.graph->setScatterStyle(
             QCPScatterStyle(QCPScatterStyle::ssDisc, ink, plot.over_time ? kDot_px : kMarkDot_px));
@@ -529,7 +523,6 @@ void PlotCanvas::Parts::refill(std::size_t index) {
 void PlotCanvas::Parts::scaleY(std::size_t index) {
     const PlotPanel& source = plot.panels[index];
     const Range& seen = panels[index].seen;
-    if (seen.empty()) return;
     QCPAxis* axis = panels[index].rect->axis(QCPAxis::atLeft);
     // A value that stays the same has a middle, and as much room as its last digit deserves.
     const double least = 0.6 * std::pow(10.0, -source.decimals);
@@ -539,10 +532,10 @@ void PlotCanvas::Parts::scaleY(std::size_t index) {
     double high = seen.high + margin;
     if (QCPLegend* legend = panels[index].legend) {
         // Nothing is drawn behind the legend.
-        const double legend_px = legend->minimumOuterSizeHint().height() + 12.0;
-        const double whole_px =
-            std::max(panels[index].rect->height(), 3 * legend->minimumOuterSizeHint().height());
-        high += (high - low) * legend_px / std::max(whole_px - legend_px, 1.0);
+        // As high as panels will be: they are laid out later.
+        const double legend_px = legend->minimumOuterSizeHint().height() + kAboveLegend_px;
+        const double panel_px = view->height() / static_cast<double>(panels.size()) - kBelowPanel_px;
+        high += (high - low) * legend_px / std::max(panel_px - legend_px, legend_px);
     }
     axis->setRange(low, high);
     const double step = tickStep((high - low) / kYTicks, source.decimals == 0);

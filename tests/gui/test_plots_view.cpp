@@ -325,6 +325,7 @@ void TestPlotsView::readoutHasTimeValueAndUnit() {
     PlotsView view(selection);
     show(view);
     view.setPlot(PlotKind::Position);
+    QTest::qWait(30);
     const auto& epoch = sample_.products->trajectories.back().epochs[200];
     const QString line = view.canvas().readoutAt(2, epoch.time_s);
     QVERIFY2(line.contains(QString::number(epoch.time_s, 'f', 1) + " s"), qPrintable(line));
@@ -333,7 +334,8 @@ void TestPlotsView::readoutHasTimeValueAndUnit() {
     const QPointF at = view.canvas().pixelOf(2, epoch.time_s, epoch.position_enu_m.z());
     QMouseEvent move(QEvent::MouseMove, at, plotWidget(view)->mapToGlobal(at), Qt::NoButton, {}, {});
     QApplication::sendEvent(plotWidget(view), &move);
-    QVERIFY(view.findChild<QLabel*>("plotReadout")->text().contains(" m"));
+    const QString told = view.findChild<QLabel*>("plotReadout")->text();
+    QVERIFY2(told.contains(" m"), qPrintable(QString("%1 at %2, %3").arg(told).arg(at.x()).arg(at.y())));
 }
 
 void TestPlotsView::newResultsKeepTheZoom() {
