@@ -31,10 +31,12 @@
 #include "app/gui/language.hpp"
 #include "app/gui/map_panel.hpp"
 #include "app/gui/place_panel.hpp"
+#include "app/gui/plots_view.hpp"
 #include "app/gui/recent_surveys.hpp"
 #include "app/gui/shortcuts_dialog.hpp"
 #include "app/gui/start_page.hpp"
 #include "app/gui/steps_panel.hpp"
+#include "app/gui/terrain_view.hpp"
 #include "app/pipeline/version.hpp"
 
 namespace terrawalk::gui {
@@ -110,11 +112,17 @@ MapView& MainWindow::map() {
 
 void MainWindow::buildViews() {
     map_ = new MapPanel(session_.selection());
+    terrain_ = new TerrainView(session_.selection());
+    terrain_->setObjectName("terrain");
+    plots_ = new PlotsView(session_.selection());
+    plots_->setObjectName("plots");
     accuracy_ = new AccuracyPanel(session_.selection());
     views_ = new QTabWidget;
     views_->setObjectName("views");
     views_->setDocumentMode(true);
     views_->addTab(map_, tr("Map"));
+    views_->addTab(terrain_, tr("3-D"));
+    views_->addTab(plots_, tr("Plots"));
     views_->addTab(accuracy_, tr("Accuracy"));
     start_ = new StartPage;
     pages_ = new QStackedWidget;
@@ -128,6 +136,17 @@ void MainWindow::buildViews() {
     connect(&view, &MapView::hovered, this, [this](const QString& words) { readout_->setText(words); });
     connect(&view, &MapView::placeAsked, this, &MainWindow::askPlace);
     connect(&view, &MapView::lineDrawn, this, &MainWindow::takeLine);
+    connect(map_, &MapPanel::layerChanged, terrain_, &TerrainView::setLayer);
+    connect(map_, &MapPanel::colouringChanged, terrain_, &TerrainView::setColouring);
+    connect(terrain_, &TerrainView::hovered, this,
+            [this](const QString& words) { readout_->setText(words); });
+    connect(terrain_, &TerrainView::picked, this, &MainWindow::askPlace);
+    connect(plots_, &PlotsView::excludeAsked, this,
+            [this](const TrackStretch& stretch, const QString& sensor) {
+                for (const auto& [value, name] : kEditedSensors) {
+                    if (sensor.toStdString() == name) excludeStretch(stretch, value);
+                }
+            });
 }
 
 QDockWidget* MainWindow::addDock(Qt::DockWidgetArea area, const QString& name, const QString& title,
@@ -160,8 +179,14 @@ void MainWindow::buildDocks() {
     });
     connect(&tree_model_, &SurveyTreeModel::visibilityChanged, this,
             [this](int kind, const QString& id, bool visible) {
-                if (kind == SurveyTreeModel::RunItem) map().setRunVisible(id, visible);
-                if (kind == SurveyTreeModel::MarkItem) map().setMarkVisible(id, visible);
+                if (kind == SurveyTreeModel::RunItem) {
+                    map().setRunVisible(id, visible);
+                    terrain_->setRunVisible(id, visible);
+                }
+                if (kind == SurveyTreeModel::MarkItem) {
+                    map().setMarkVisible(id, visible);
+                    terrain_->setMarkVisible(id, visible);
+                }
                 if (kind == SurveyTreeModel::EdgesItem) map().setEdgesVisible(visible);
             });
     steps_ = new StepsPanel(session_);
@@ -409,6 +434,9 @@ void MainWindow::showSurvey() {
 
 void MainWindow::showProducts() {
     map_->show(session_.map(), session_.products());
+    const auto survey = session_.shownSurvey();
+    terrain_->show(survey, session_.map(), session_.products());
+    plots_->show(survey, session_.map(), session_.products());
     accuracy_->show(session_.products());
     place_->clear();
     showTree();
@@ -558,6 +586,8 @@ void MainWindow::setTheme(Theme theme) {
     QSettings().setValue("theme", theme == Theme::Dark ? "dark" : "light");
     themeIcons();
     map_->themeChanged();
+    terrain_->themeChanged();
+    plots_->themeChanged();
     message_model_.themeChanged();
     steps_->themeChanged();
     accuracy_->show(session_.products());
@@ -570,6 +600,8 @@ void MainWindow::themeIcons() {
         if (!icon_name.isEmpty()) action->setIcon(icon(icon_name));
     }
     const std::pair<int, const char*> tabs[] = {{views_->indexOf(map_), "map"},
+                                                {views_->indexOf(terrain_), "terrain_3d"},
+                                                {views_->indexOf(plots_), "plots"},
                                                 {views_->indexOf(accuracy_), "accuracy"}};
     for (const auto& [tab, name] : tabs) views_->setTabIcon(tab, icon(name));
 }

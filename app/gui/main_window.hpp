@@ -22,6 +22,8 @@ namespace terrawalk::gui {
 class AccuracyPanel;
 class MapPanel;
 class PlacePanel;
+class PlotsView;
+class TerrainView;
 class StartPage;
 class StepsPanel;
 
@@ -96,6 +98,8 @@ class MainWindow : public QMainWindow {
     StartPage* start_ = nullptr;
     QTabWidget* views_ = nullptr;
     MapPanel* map_ = nullptr;
+    TerrainView* terrain_ = nullptr;
+    PlotsView* plots_ = nullptr;
     AccuracyPanel* accuracy_ = nullptr;
     PlacePanel* place_ = nullptr;
     StepsPanel* steps_ = nullptr;

@@ -18,15 +18,6 @@ constexpr double kPadding_px = 8.0;
 constexpr double kRampHeight_px = 96.0;
 constexpr double kRampWidth_px = 16.0;
 
-void drawPanel(QPainter& painter, const QRectF& box, const QPalette& palette) {
-    QColor ground = palette.color(QPalette::Base), edge = palette.color(QPalette::Mid);
-    ground.setAlpha(225);
-    edge.setAlpha(120);
-    painter.setPen(QPen(edge, 1.0));
-    painter.setBrush(ground);
-    painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), 4, 4);
-}
-
 void drawScaleBar(QPainter& painter, const MapTransform& transform, const QPalette& palette) {
     const double length_m = roundBelow(140.0 / transform.pixels_per_m);
     const double length_px = length_m * transform.pixels_per_m;
@@ -203,18 +194,32 @@ void drawVectorNote(QPainter& painter, const MapScene& scene, const MapTransform
 
 }  // namespace
 
+void drawPanel(QPainter& painter, const QRectF& box, const QPalette& palette) {
+    QColor ground = palette.color(QPalette::Base), edge = palette.color(QPalette::Mid);
+    ground.setAlpha(225);
+    edge.setAlpha(120);
+    painter.setPen(QPen(edge, 1.0));
+    painter.setBrush(ground);
+    painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), 4, 4);
+}
+
+double drawLegends(QPainter& painter, const MapScene& scene, QPointF upper_right, const QPalette& palette) {
+    const QFontMetricsF metrics(painter.font());
+    double top = upper_right.y();
+    for (const LegendPart& part : legendParts(scene)) {
+        const double width = widthOf(part, metrics), height = heightOf(part, metrics.height());
+        drawLegend(painter, part, {upper_right.x() - width, top, width, height}, palette);
+        top += height + 8;
+    }
+    return top;
+}
+
 void drawFurniture(QPainter& painter, const MapScene& scene, const MapTransform& transform,
                    const QPalette& palette) {
     painter.setRenderHint(QPainter::Antialiasing);
     drawScaleBar(painter, transform, palette);
-    double top = drawNorthArrow(painter, transform, palette) + 8;
-    const QFontMetricsF metrics(painter.font());
-    for (const LegendPart& part : legendParts(scene)) {
-        const double width = widthOf(part, metrics), height = heightOf(part, metrics.height());
-        drawLegend(painter, part, {transform.size_px.width() - kMargin_px - width, top, width, height},
-                   palette);
-        top += height + 8;
-    }
+    const double top = drawNorthArrow(painter, transform, palette) + 8;
+    drawLegends(painter, scene, {transform.size_px.width() - kMargin_px, top}, palette);
     drawVectorNote(painter, scene, transform, palette);
 }
 

@@ -13,4 +13,9 @@ namespace terrawalk::gui {
 void drawFurniture(QPainter& painter, const MapScene& scene, const MapTransform& transform,
                    const QPalette& palette);
 
+/// A ground that leaves text readable on any picture.
+void drawPanel(QPainter& painter, const QRectF& box, const QPalette& palette);
+/// Legends of the layer and of the tracks, one below the other. Returns the lower end of the last.
+double drawLegends(QPainter& painter, const MapScene& scene, QPointF upper_right, const QPalette& palette);
+
 }  // namespace terrawalk::gui

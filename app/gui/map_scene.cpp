@@ -80,9 +80,8 @@ QPolygonF onScreen(const MapTrack& track, const MapTransform& transform) {
 }
 
 /// Pieces of one track, each in the colour of its end.
-template <class ColourAt>
 void drawColoured(QPainter& painter, const MapTrack& track, const MapTransform& transform, double width_px,
-                  const ColourAt& colourAt) {
+                  const TrackInk& colourAt) {
     QPointF last;
     for (std::size_t i = 0; i < track.map_m.size(); ++i) {
         const QPointF at = transform.toScreen({track.map_m[i].x(), track.map_m[i].y()});
@@ -190,6 +189,26 @@ std::optional<ValueRange> trackRange(const MapScene& scene) {
     return ValueRange{low, std::max(high, low + 1e-6)};
 }
 
+TrackInk trackInk(const MapScene& scene, std::size_t index) {
+    const MapTrack& track = scene.survey->tracks[index];
+    if (scene.colouring == TrackColouring::Fix && track.fix.size() == track.map_m.size()) {
+        return [&track](std::size_t i) {
+            return fixColour(track.fix[i]);
+        };
+    }
+    const auto range = trackRange(scene);
+    auto own = valuesOf(track, scene.colouring);
+    if (!range || own.size() != track.map_m.size()) {
+        return [colour = runColour(index).rgb()](std::size_t) {
+            return colour;
+        };
+    }
+    return [range = *range, own = std::move(own), ramp = sequentialRamp()](std::size_t i) {
+        const Colour c = rampColour(ramp, (own[i] - range.low) / (range.high - range.low));
+        return qRgb(c[0], c[1], c[2]);
+    };
+}
+
 std::vector<std::pair<QString, QColor>> fixClasses(const MapScene& scene) {
     std::vector<std::pair<QString, QColor>> classes;
     if (!scene.survey || scene.colouring != TrackColouring::Fix) return classes;
@@ -255,8 +274,6 @@ void drawTracks(QPainter& painter, const MapScene& scene, const MapTransform& tr
     if (!scene.survey) return;
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setBrush(Qt::NoBrush);
-    const auto range = trackRange(scene);
-    const std::vector<Colour> ramp = sequentialRamp();
     for (std::size_t t = 0; t < scene.survey->tracks.size(); ++t) {
         const MapTrack& track = scene.survey->tracks[t];
         const QString id = text(track.run_id);
@@ -265,18 +282,11 @@ void drawTracks(QPainter& painter, const MapScene& scene, const MapTransform& tr
         painter.setPen(
             QPen(QColor(255, 255, 255, 150), width_px + 1.6, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
         painter.drawPolyline(onScreen(track, transform));
-        const auto own = valuesOf(track, scene.colouring);
-        if (scene.colouring == TrackColouring::Fix && track.fix.size() == track.map_m.size()) {
-            drawColoured(painter, track, transform, width_px + 0.7,
-                         [&](std::size_t i) { return fixColour(track.fix[i]); });
-        } else if (range && own.size() == track.map_m.size()) {
-            drawColoured(painter, track, transform, width_px + 0.7, [&](std::size_t i) {
-                const Colour c = rampColour(ramp, (own[i] - range->low) / (range->high - range->low));
-                return qRgb(c[0], c[1], c[2]);
-            });
-        } else {
+        if (scene.colouring == TrackColouring::Run) {
             painter.setPen(QPen(runColour(t), width_px, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
             painter.drawPolyline(onScreen(track, transform));
+        } else {
+            drawColoured(painter, track, transform, width_px + 0.7, trackInk(scene, t));
         }
     }
     for (const MapTrack& track : scene.survey->tracks) {

@@ -6,6 +6,7 @@
 #include <QPolygonF>
 #include <QSet>
 #include <QString>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -58,6 +59,9 @@ struct ValueRange {
     double high = 1.0;
 };
 [[nodiscard]] std::optional<ValueRange> trackRange(const MapScene& scene);
+/// The colour of one track at each of its places, by the scene's colouring.
+using TrackInk = std::function<QRgb(std::size_t)>;
+[[nodiscard]] TrackInk trackInk(const MapScene& scene, std::size_t track);
 /// Kinds of fix that occur in the shown tracks, with their colours.
 [[nodiscard]] std::vector<std::pair<QString, QColor>> fixClasses(const MapScene& scene);
 /// The place on a track that is nearest to a point on the screen.

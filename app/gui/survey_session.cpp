@@ -306,6 +306,10 @@ std::shared_ptr<const Products> SurveySession::products() const {
     return history_.empty() ? nullptr : history_[shown_].products;
 }
 
+std::shared_ptr<const Survey> SurveySession::shownSurvey() const {
+    return history_.empty() ? survey_ : history_[shown_].survey;
+}
+
 std::shared_ptr<const SurveyMap> SurveySession::map() const {
     return history_.empty() ? logged_map_ : history_[shown_].map;
 }

@@ -68,6 +68,8 @@ class SurveySession : public QObject {
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     /// As in its files, without edits.
     [[nodiscard]] std::shared_ptr<const Survey> survey() const { return survey_; }
+    /// As the shown results were made from, with its edits.
+    [[nodiscard]] std::shared_ptr<const Survey> shownSurvey() const;
     [[nodiscard]] std::shared_ptr<const Products> products() const;
     [[nodiscard]] std::shared_ptr<const SurveyMap> map() const;
     [[nodiscard]] const RunSettings& settings() const { return settings_; }

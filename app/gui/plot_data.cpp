@@ -1,0 +1,682 @@
+#include "app/gui/plot_data.hpp"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace terrawalk::gui {
+
+namespace {
+
+constexpr double kBand95 = 1.96;
+// A step of more than that many usual ones is a gap, as the report counts them.
+constexpr double kGapSteps = 2.5;
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kMostGnssDots = 200'000;
+
+QString translated(const char* text) {
+    return QCoreApplication::translate("PlotData", text);
+}
+
+QString text(std::string_view utf8) {
+    return QString::fromUtf8(utf8.data(), static_cast<qsizetype>(utf8.size()));
+}
+
+QString metres(double value) {
+    return QString::number(value, 'f', 3).replace('-', QChar(0x2212)) + " m";
+}
+
+double medianOf(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// Puts a break into a line wherever its values stay away for longer than they usually do.
+void breakAtGaps(PlotSeries& series) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < series.x.size(); ++i) steps.push_back(series.x[i] - series.x[i - 1]);
+    const double longest = kGapSteps * medianOf(std::move(steps));
+    PlotSeries broken = series;
+    broken.x.clear();
+    broken.y.clear();
+    broken.half_band.clear();
+    const bool band = !series.half_band.empty();
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+        if (i > 0 && series.x[i] - series.x[i - 1] > longest) {
+            broken.x.push_back((series.x[i] + series.x[i - 1]) / 2.0);
+            broken.y.push_back(kNoNumber);
+            if (band) broken.half_band.push_back(kNoNumber);
+        }
+        broken.x.push_back(series.x[i]);
+        broken.y.push_back(series.y[i]);
+        if (band) broken.half_band.push_back(series.half_band[i]);
+    }
+    series = std::move(broken);
+}
+
+/// What a sensor gave, over time. Epochs without a reading are no gap where the sensor is merely slower.
+PlotSeries channelSeries(const ArrayLog& log, Channel channel, const QString& name, SeriesInk ink,
+                         double factor = 1.0) {
+    PlotSeries series{name, SeriesStyle::Line, ink, {}, {}, {}};
+    if (!log.has(channel)) return series;
+    const std::vector<double>& column = log.column(channel);
+    for (std::size_t i = 0; i < column.size(); ++i) {
+        if (!present(column[i])) continue;
+        series.x.push_back(log.time_s[i]);
+        series.y.push_back(column[i] * factor);
+    }
+    breakAtGaps(series);
+    return series;
+}
+
+struct ChannelLine {
+    Channel channel;
+    const char* name;
+    double factor = 1.0;
+};
+
+/// A panel with those of some channels that the log has.
+void addChannels(Plot& plot, const ArrayLog& log, const QString& label, const QString& unit, int decimals,
+                 std::initializer_list<ChannelLine> channels) {
+    PlotPanel panel{label, unit, decimals, {}, false};
+    for (const ChannelLine& line : channels) {
+        auto series = channelSeries(log, line.channel, translated(line.name),
+                                    static_cast<SeriesInk>(panel.series.size()), line.factor);
+        if (!series.x.empty()) panel.series.push_back(std::move(series));
+    }
+    if (!panel.series.empty()) plot.panels.push_back(std::move(panel));
+}
+
+constexpr double kDegrees = 180.0 / kPi;
+
+Plot sensorPlot(PlotKind kind, const Run& run) {
+    Plot plot;
+    const ArrayLog& log = run.log;
+    switch (kind) {
+        case PlotKind::GnssPosition:
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Fix code"), {}, 0,
+                        {{Channel::Fix, QT_TRANSLATE_NOOP("PlotData", "Fix")}});
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Ellipsoidal height"), "m", 2,
+                        {{Channel::EllipsoidalHeight, QT_TRANSLATE_NOOP("PlotData", "Height")}});
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Accuracy"), "m", 2,
+                        {{Channel::GnssHorizontalAccuracy, QT_TRANSLATE_NOOP("PlotData", "Plan")},
+                         {Channel::GnssVerticalAccuracy, QT_TRANSLATE_NOOP("PlotData", "Height")}});
+            break;
+        case PlotKind::GnssVelocity:
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "GNSS velocity"), "m/s", 2,
+                        {{Channel::GnssVelocityEast, QT_TRANSLATE_NOOP("PlotData", "East")},
+                         {Channel::GnssVelocityNorth, QT_TRANSLATE_NOOP("PlotData", "North")},
+                         {Channel::GnssVelocityUp, QT_TRANSLATE_NOOP("PlotData", "Up")}});
+            break;
+        case PlotKind::Barometer:
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Pressure"), "hPa", 2,
+                        {{Channel::Pressure, QT_TRANSLATE_NOOP("PlotData", "Pressure"), 0.01}});
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Temperature"), "°C", 1,
+                        {{Channel::Temperature, QT_TRANSLATE_NOOP("PlotData", "Temperature")}});
+            break;
+        case PlotKind::OpticalFlow:
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Optical flow"), "m/s", 2,
+                        {{Channel::FlowForward, QT_TRANSLATE_NOOP("PlotData", "Forward")},
+                         {Channel::FlowLeft, QT_TRANSLATE_NOOP("PlotData", "Left")}});
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Quality"), {}, 0,
+                        {{Channel::FlowQuality, QT_TRANSLATE_NOOP("PlotData", "Quality")}});
+            break;
+        case PlotKind::Attitude:
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Tilt"), "°", 1,
+                        {{Channel::Roll, QT_TRANSLATE_NOOP("PlotData", "Roll"), kDegrees},
+                         {Channel::Pitch, QT_TRANSLATE_NOOP("PlotData", "Pitch"), kDegrees}});
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Heading"), "°", 0,
+                        {{Channel::Heading, QT_TRANSLATE_NOOP("PlotData", "Heading"), kDegrees}});
+            break;
+        case PlotKind::Acceleration:
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Acceleration"), "m/s²", 2,
+                        {{Channel::AccelerationX, QT_TRANSLATE_NOOP("PlotData", "Forward")},
+                         {Channel::AccelerationY, QT_TRANSLATE_NOOP("PlotData", "Left")},
+                         {Channel::AccelerationZ, QT_TRANSLATE_NOOP("PlotData", "Up")}});
+            break;
+        case PlotKind::AngularRate:
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Angular rate"), "°/s", 1,
+                        {{Channel::AngularRateX, "x", kDegrees},
+                         {Channel::AngularRateY, "y", kDegrees},
+                         {Channel::AngularRateZ, "z", kDegrees}});
+            break;
+        default:
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Range to the ground"), "m", 3,
+                        {{Channel::Range, QT_TRANSLATE_NOOP("PlotData", "Range")}});
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Strength"), {}, 0,
+                        {{Channel::RangeStrength, QT_TRANSLATE_NOOP("PlotData", "Strength")}});
+            break;
+    }
+    if (plot.panels.empty()) {
+        plot.reason = QCoreApplication::translate("PlotData", "The log of run %1 has no readings of this sensor.").arg(text(run.id));
+    }
+    return plot;
+}
+
+/// The antenna's places as they were logged, one axis.
+PlotSeries gnssDots(const Survey& survey, const Run& run, int axis) {
+    PlotSeries dots{QCoreApplication::translate("PlotData", "GNSS, as logged"), SeriesStyle::Dots, SeriesInk::Quiet, {}, {}, {}};
+    const LocalFrame frame = survey.frame();
+    const std::size_t step = 1 + run.log.size() / kMostGnssDots;
+    for (std::size_t i = 0; i < run.log.size(); i += step) {
+        const GeodeticPosition position{run.log.value(Channel::Latitude, i),
+                                        run.log.value(Channel::Longitude, i),
+                                        run.log.value(Channel::EllipsoidalHeight, i)};
+        if (!present(position.lat_deg) || !present(position.lon_deg)) continue;
+        if (!present(position.h_ell_m)) continue;
+        dots.x.push_back(run.log.time_s[i]);
+        dots.y.push_back(frame.toEnu(position)[axis]);
+    }
+    return dots;
+}
+
+/// A value of each epoch with its 95 % band.
+template <class Value, class Sigma>
+PlotSeries stateSeries(const Trajectory& trajectory, const QString& name, SeriesInk ink, Value value,
+                       Sigma sigma) {
+    PlotSeries series{name, SeriesStyle::Line, ink, {}, {}, {}};
+    for (const TrajectoryEpoch& epoch : trajectory.epochs) {
+        series.x.push_back(epoch.time_s);
+        series.y.push_back(value(epoch));
+        series.half_band.push_back(kBand95 * sigma(epoch));
+    }
+    breakAtGaps(series);
+    return series;
+}
+
+double speedSigma(const TrajectoryEpoch& epoch) {
+    const Eigen::Vector2d v = epoch.velocity_enu_mps.head<2>();
+    const Eigen::Matrix2d c = epoch.covariance.block<2, 2>(3, 3);
+    // Standing still has no direction: the mean of both.
+    if (v.norm() < 1e-3) return std::sqrt(c.trace() / 2.0);
+    return std::sqrt(std::max(0.0, v.dot(c * v))) / v.norm();
+}
+
+Plot positionPlot(const Survey& survey, std::size_t run, const Trajectory& trajectory) {
+    Plot plot;
+    const std::array<QString, 3> axes{QCoreApplication::translate("PlotData", "East"), QCoreApplication::translate("PlotData", "North"), QCoreApplication::translate("PlotData", "Height")};
+    for (int axis = 0; axis < 3; ++axis) {
+        PlotPanel panel{axes[static_cast<std::size_t>(axis)], "m", 2, {}, false};
+        auto dots = gnssDots(survey, survey.runs[run], axis);
+        if (!dots.x.empty()) panel.series.push_back(std::move(dots));
+        panel.series.push_back(stateSeries(
+            trajectory, QCoreApplication::translate("PlotData", "Fused, 95 % band"), SeriesInk::First,
+            [axis](const TrajectoryEpoch& e) { return e.position_enu_m[axis]; },
+            [axis](const TrajectoryEpoch& e) { return std::sqrt(e.covariance(axis, axis)); }));
+        plot.panels.push_back(std::move(panel));
+    }
+    return plot;
+}
+
+Plot speedPlot(const Trajectory& trajectory) {
+    Plot plot;
+    PlotPanel speed{QCoreApplication::translate("PlotData", "Speed over ground"), "m/s", 2, {}, false};
+    speed.series.push_back(stateSeries(
+        trajectory, QCoreApplication::translate("PlotData", "Fused, 95 % band"), SeriesInk::First,
+        [](const TrajectoryEpoch& e) { return e.velocity_enu_mps.head<2>().norm(); }, speedSigma));
+    PlotPanel climb{QCoreApplication::translate("PlotData", "Climb"), "m/s", 2, {}, false};
+    climb.series.push_back(stateSeries(
+        trajectory, QCoreApplication::translate("PlotData", "Fused, 95 % band"), SeriesInk::First,
+        [](const TrajectoryEpoch& e) { return e.velocity_enu_mps.z(); },
+        [](const TrajectoryEpoch& e) { return std::sqrt(e.covariance(5, 5)); }));
+    plot.panels = {std::move(speed), std::move(climb)};
+    return plot;
+}
+
+Plot sigmaPlot(const Trajectory& trajectory) {
+    const auto line = [&](const QString& name, SeriesInk ink, auto value) {
+        auto series = stateSeries(trajectory, name, ink, value, [](const TrajectoryEpoch&) { return 0.0; });
+        series.half_band.clear();
+        return series;
+    };
+    PlotPanel position{QCoreApplication::translate("PlotData", "Position, 1 σ"), "m", 3, {}, true};
+    position.series = {line(QCoreApplication::translate("PlotData", "Plan"), SeriesInk::First,
+                            [](const TrajectoryEpoch& e) {
+                                return std::sqrt(std::max(e.covariance(0, 0), e.covariance(1, 1)));
+                            }),
+                       line(QCoreApplication::translate("PlotData", "Height"), SeriesInk::Second,
+                            [](const TrajectoryEpoch& e) { return std::sqrt(e.covariance(2, 2)); })};
+    PlotPanel attitude{QCoreApplication::translate("PlotData", "Attitude, 1 σ"), "°", 2, {}, true};
+    attitude.series = {line(QCoreApplication::translate("PlotData", "Tilt"), SeriesInk::First,
+                            [](const TrajectoryEpoch& e) { return degrees(e.sigma_tilt_rad); }),
+                       line(QCoreApplication::translate("PlotData", "Heading"), SeriesInk::Second,
+                            [](const TrajectoryEpoch& e) { return degrees(e.sigma_heading_rad); })};
+    Plot plot;
+    plot.panels = {std::move(position), std::move(attitude)};
+    return plot;
+}
+
+Plot groundPlot(std::size_t run, const Products& products) {
+    Plot plot;
+    std::array<PlotSeries, kGroundPointStateCount> by_state;
+    for (const GroundPoint& point : products.ground_points) {
+        if (point.run != run || !point.enu_m.allFinite()) continue;
+        PlotSeries& series = by_state[static_cast<std::size_t>(point.state)];
+        series.x.push_back(point.time_s);
+        series.y.push_back(point.enu_m.z());
+    }
+    PlotPanel panel{QCoreApplication::translate("PlotData", "Height of the ground"), "m", 2, {}, false};
+    const bool some_used = !by_state[static_cast<std::size_t>(GroundPointState::Used)].x.empty();
+    int refused = 0;
+    // The used ones last, on top.
+    for (std::size_t i = kGroundPointStateCount; i-- > 0;) {
+        PlotSeries& series = by_state[i];
+        if (series.x.empty()) continue;
+        const auto state = static_cast<GroundPointState>(i);
+        const bool stands_back = state == GroundPointState::Thinned || state == GroundPointState::RunLeftOut;
+        series.style = SeriesStyle::Dots;
+        series.name = QString("%1 (%2)").arg(text(name(state))).arg(series.x.size());
+        series.ink = state == GroundPointState::Used ? SeriesInk::First
+                     : stands_back                   ? SeriesInk::Quiet
+                                                     : static_cast<SeriesInk>(1 + refused++ % 5);
+        // What was refused can lie anywhere.
+        series.sets_scale = state == GroundPointState::Used || !some_used;
+        panel.series.push_back(std::move(series));
+    }
+    plot.note =
+        QCoreApplication::translate("PlotData", "The heights fit the points that are used; those that were refused may lie beyond.");
+    if (panel.series.empty()) {
+        plot.reason = QCoreApplication::translate("PlotData", "This run has no ground points: its range finder gave nothing.");
+    } else {
+        plot.panels.push_back(std::move(panel));
+    }
+    return plot;
+}
+
+PlotSeries guide(double from, double to, double y, const QString& name = {}) {
+    return {name, SeriesStyle::Guide, SeriesInk::Quiet, {from, to}, {y, y}, {}};
+}
+
+/// Errors over their predicted sigma, axis by axis, mark by mark.
+Plot normalisedErrors(const SurveyReport& report) {
+    Plot plot;
+    plot.x_label = QCoreApplication::translate("PlotData", "Mark");
+    std::vector<QString> marks;
+    const auto place = [&](const std::string& mark) {
+        const QString wanted = text(mark);
+        auto found = std::find(marks.begin(), marks.end(), wanted);
+        if (found == marks.end()) found = marks.insert(marks.end(), wanted);
+        return static_cast<double>(found - marks.begin());
+    };
+    struct Kind {
+        Stage stage;
+        Quantity quantity;
+        bool used;
+        QString name;
+    };
+    const std::array<Kind, 4> kinds{
+        Kind{Stage::Fused, Quantity::ArrayPosition, true, QCoreApplication::translate("PlotData", "Track, tied to the mark")},
+        Kind{Stage::Fused, Quantity::ArrayPosition, false, QCoreApplication::translate("PlotData", "Track")},
+        Kind{Stage::Surface, Quantity::SurfaceHeight, true,
+             QCoreApplication::translate("PlotData", "Surface, mark used by the estimator")},
+        Kind{Stage::Surface, Quantity::SurfaceHeight, false, QCoreApplication::translate("PlotData", "Surface")}};
+    const std::array<QString, 3> axes{QCoreApplication::translate("PlotData", "East"), QCoreApplication::translate("PlotData", "North"), QCoreApplication::translate("PlotData", "Height")};
+    std::size_t n = 0, within = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        PlotPanel panel{
+            QCoreApplication::translate("PlotData", "%1, error over σ").arg(axes[static_cast<std::size_t>(axis)]), {}, 2, {}, false};
+        for (std::size_t k = 0; k < kinds.size(); ++k) {
+            PlotSeries series{kinds[k].name, SeriesStyle::Dots, static_cast<SeriesInk>(3 - k), {}, {}, {}};
+            for (const Residual& r : report.residuals) {
+                if (r.stage != kinds[k].stage || r.quantity != kinds[k].quantity) continue;
+                if (r.used_by_estimator != kinds[k].used) continue;
+                const double ratio = r.difference_enu_m[axis] / r.sigma_enu_m[axis];
+                if (!std::isfinite(ratio)) continue;
+                series.x.push_back(place(r.mark));
+                series.y.push_back(ratio);
+                if (r.used_by_estimator) continue;
+                ++n;
+                within += std::abs(ratio) <= kBand95 ? 1U : 0U;
+            }
+            if (!series.x.empty()) panel.series.push_back(std::move(series));
+        }
+        if (!panel.series.empty()) plot.panels.push_back(std::move(panel));
+    }
+    for (const QString& mark : marks) plot.categories << mark;
+    const double last = static_cast<double>(marks.size()) - 0.5;
+    for (PlotPanel& panel : plot.panels) {
+        panel.series.push_back(guide(-0.5, last, kBand95, QString::fromUtf8("± 1.96")));
+        panel.series.push_back(guide(-0.5, last, -kBand95));
+        panel.series.push_back(guide(-0.5, last, 0.0));
+    }
+    if (n > 0) {
+        plot.note = translated(
+                        "%1 of %2 errors lie within 1.96 σ (%3 %); 95 % is right. Marks that the estimator "
+                        "used do not count.")
+                        .arg(within)
+                        .arg(n)
+                        .arg(100.0 * static_cast<double>(within) / static_cast<double>(n), 0, 'f', 0);
+    }
+    if (plot.panels.empty()) {
+        plot.reason =
+            QCoreApplication::translate("PlotData", "No errors at marks. Add marks to the survey's control.csv and process again.");
+    }
+    return plot;
+}
+
+/// Height errors of the surface at marks that it had no part in, in order of size; else those of the tracks.
+std::vector<double> heightErrors(const SurveyReport& report, QString& of_what) {
+    for (const Stage stage : {Stage::Surface, Stage::Fused}) {
+        std::vector<double> errors;
+        for (const Residual& r : report.residuals) {
+            const auto wanted = stage == Stage::Surface ? Quantity::SurfaceHeight : Quantity::ArrayPosition;
+            if (r.stage != stage || r.quantity != wanted || r.used_by_estimator) continue;
+            if (std::isfinite(r.difference_enu_m.z())) errors.push_back(r.difference_enu_m.z());
+        }
+        if (errors.size() < 3) continue;
+        std::sort(errors.begin(), errors.end());
+        of_what = stage == Stage::Surface ? QCoreApplication::translate("PlotData", "Height error of the surface")
+                                          : QCoreApplication::translate("PlotData", "Height error of the tracks");
+        return errors;
+    }
+    return {};
+}
+
+struct Moments {
+    double mean = 0.0, sd = 0.0;
+};
+
+Moments momentsOf(const std::vector<double>& values) {
+    Moments m;
+    const auto n = static_cast<double>(values.size());
+    m.mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+    for (const double v : values) m.sd += (v - m.mean) * (v - m.mean);
+    m.sd = std::sqrt(m.sd / (n - 1.0));
+    return m;
+}
+
+Plot fewErrors() {
+    Plot plot;
+    plot.reason = translated(
+        "Too few marks to show how errors spread: three at least, that the estimator did "
+        "not use.");
+    return plot;
+}
+
+Plot errorHistogram(const SurveyReport& report) {
+    QString what;
+    const std::vector<double> errors = heightErrors(report, what);
+    if (errors.empty()) return fewErrors();
+    const auto n = static_cast<double>(errors.size());
+    const Moments m = momentsOf(errors);
+    // Freedman and Diaconis (1981); where half of the errors are alike, by the standard deviation.
+    const double iqr = errors[errors.size() * 3 / 4] - errors[errors.size() / 4];
+    double width = 2.0 * (iqr > 0.0 ? iqr : m.sd) / std::cbrt(n);
+    if (!(width > 0.0)) width = 0.01;
+    const double first = std::floor(errors.front() / width);
+    const auto bins = static_cast<std::size_t>(std::floor(errors.back() / width) - first) + 1;
+    PlotSeries bars{QCoreApplication::translate("PlotData", "Marks"), SeriesStyle::Bars, SeriesInk::First, {}, {}, {}};
+    for (std::size_t i = 0; i < bins; ++i) {
+        bars.x.push_back((first + static_cast<double>(i) + 0.5) * width);
+        bars.y.push_back(0.0);
+    }
+    for (const double e : errors) {
+        bars.y[std::min(bins - 1, static_cast<std::size_t>(std::floor(e / width) - first))] += 1.0;
+    }
+    PlotSeries bell{
+        QCoreApplication::translate("PlotData", "Normal, of the same mean and SD"), SeriesStyle::Line, SeriesInk::Second, {}, {}, {}};
+    for (int i = -80; i <= 80 && m.sd > 0.0; ++i) {
+        const double z = i / 20.0;
+        bell.x.push_back(m.mean + z * m.sd);
+        bell.y.push_back(n * width / (m.sd * std::sqrt(2.0 * kPi)) * std::exp(-z * z / 2.0));
+    }
+    Plot plot;
+    plot.x_label = what;
+    plot.x_unit = "m";
+    plot.bar_width = width;
+    plot.panels.push_back({QCoreApplication::translate("PlotData", "Marks"), {}, 0, {std::move(bars), std::move(bell)}, true});
+    double square = 0.0;
+    for (const double e : errors) square += e * e / n;
+    plot.note = QCoreApplication::translate("PlotData", "n %1, mean %2, SD %3, RMSE %4")
+                    .arg(errors.size())
+                    .arg(metres(m.mean), metres(m.sd), metres(std::sqrt(square)));
+    return plot;
+}
+
+/// Quantile of the standard normal distribution, by bisection of its distribution function.
+double normalQuantile(double p) {
+    double low = -8.0, high = 8.0;
+    for (int i = 0; i < 60; ++i) {
+        const double middle = (low + high) / 2.0;
+        (0.5 * std::erfc(-middle / std::sqrt(2.0)) < p ? low : high) = middle;
+    }
+    return (low + high) / 2.0;
+}
+
+Plot quantiles(const SurveyReport& report) {
+    QString what;
+    const std::vector<double> errors = heightErrors(report, what);
+    if (errors.empty()) return fewErrors();
+    PlotSeries dots{QCoreApplication::translate("PlotData", "Marks"), SeriesStyle::Dots, SeriesInk::First, {}, {}, {}};
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        dots.x.push_back(normalQuantile((static_cast<double>(i) + 0.5) / static_cast<double>(errors.size())));
+        dots.y.push_back(errors[i]);
+    }
+    // Robust, so that blunders stand off from the line and do not pull it: median and NMAD.
+    const double middle = medianOf(errors);
+    std::vector<double> off;
+    for (const double e : errors) off.push_back(std::abs(e - middle));
+    const double nmad = 1.4826 * medianOf(std::move(off));
+    const double end = std::max(2.0, dots.x.back() * 1.1);
+    PlotSeries line{QCoreApplication::translate("PlotData", "Normal, of the same median and NMAD"),
+                    SeriesStyle::Guide,
+                    SeriesInk::Second,
+                    {-end, end},
+                    {middle - end * nmad, middle + end * nmad},
+                    {}};
+    Plot plot;
+    plot.x_label = QCoreApplication::translate("PlotData", "Quantile of the normal distribution (σ)");
+    plot.panels.push_back({what, "m", 2, {std::move(dots), std::move(line)}, false});
+    plot.note = QCoreApplication::translate("PlotData", "n %1, median %2, NMAD %3. Ends that leave the line are heavier than normal.")
+                    .arg(errors.size())
+                    .arg(metres(middle), metres(nmad));
+    return plot;
+}
+
+Plot crossValidation(const SurveyReport& report) {
+    Plot plot;
+    if (!report.surface.comparison) {
+        plot.reason = translated(
+            "Ways of interpolating were not compared. Set the surface's method to auto and "
+            "process again.");
+        return plot;
+    }
+    const InterpolationComparison& comparison = *report.surface.comparison;
+    plot.x_label = QCoreApplication::translate("PlotData", "Method, best first");
+    PlotPanel panel{QCoreApplication::translate("PlotData", "Error of points left out, RMSE"), "m", 3, {}, true};
+    for (const std::string& method : comparison.ranking) plot.categories << text(method);
+    const double share = 0.8 / static_cast<double>(std::max<std::size_t>(1, comparison.hold_outs.size()));
+    plot.bar_width = share;
+    for (std::size_t h = 0; h < comparison.hold_outs.size(); ++h) {
+        PlotSeries bars{
+            text(comparison.hold_outs[h]), SeriesStyle::Bars, static_cast<SeriesInk>(h % 6), {}, {}, {}};
+        for (std::size_t i = 0; i < comparison.ranking.size(); ++i) {
+            for (const InterpolationScore& score : comparison.scores) {
+                if (score.method != comparison.ranking[i] || score.hold_out != comparison.hold_outs[h])
+                    continue;
+                bars.x.push_back(static_cast<double>(i) - 0.4 + (static_cast<double>(h) + 0.5) * share);
+                bars.y.push_back(score.rmse_m);
+            }
+        }
+        panel.series.push_back(std::move(bars));
+    }
+    plot.panels.push_back(std::move(panel));
+    plot.note = QCoreApplication::translate("PlotData", "Points foretold from the others. Used: %1. Seed %2.")
+                    .arg(text(report.surface.method_used))
+                    .arg(comparison.seed);
+    return plot;
+}
+
+Plot tuningPlot(const SurveyReport& report) {
+    Plot plot;
+    if (!report.tuning) {
+        plot.reason = QCoreApplication::translate("PlotData", "Nothing was tuned. Tune the survey on its own marks to compare here.");
+        return plot;
+    }
+    const TuningRecord& tuning = *report.tuning;
+    plot.categories << QCoreApplication::translate("PlotData", "on its marks");
+    plot.x_label = QCoreApplication::translate("PlotData", "Loss");
+    plot.bar_width = 0.35;
+    PlotSeries before{
+        QCoreApplication::translate("PlotData", "Before"), SeriesStyle::Bars, SeriesInk::Quiet, {-0.2}, {tuning.loss_before}, {}};
+    PlotSeries after{
+        QCoreApplication::translate("PlotData", "After"), SeriesStyle::Bars, SeriesInk::First, {0.2}, {tuning.loss_after}, {}};
+    if (tuning.left_out_before && tuning.left_out_after) {
+        plot.categories << QCoreApplication::translate("PlotData", "on marks left out");
+        before.x.push_back(0.8);
+        before.y.push_back(*tuning.left_out_before);
+        after.x.push_back(1.2);
+        after.y.push_back(*tuning.left_out_after);
+    }
+    plot.panels.push_back({text(tuning.loss), {}, 3, {std::move(before), std::move(after)}, true});
+    plot.note = text(tuning.decision) + " " +
+                QCoreApplication::translate("PlotData", "%1, %2 evaluations, seed %3.")
+                    .arg(text(tuning.optimiser))
+                    .arg(tuning.evaluations)
+                    .arg(tuning.seed);
+    return plot;
+}
+
+Plot notProcessed() {
+    Plot plot;
+    plot.reason = QCoreApplication::translate("PlotData", "Process the survey to see this.");
+    return plot;
+}
+
+Plot unnamedPlot(PlotKind kind, std::size_t run, const Survey& survey, const Products* products) {
+    if (plotsOneRun(kind) && run >= survey.runs.size()) return {};
+    if (kind <= PlotKind::Range) return sensorPlot(kind, survey.runs[run]);
+    if (products == nullptr) return notProcessed();
+    switch (kind) {
+        case PlotKind::Position:
+            return positionPlot(survey, run, products->trajectories[run]);
+        case PlotKind::Speed:
+            return speedPlot(products->trajectories[run]);
+        case PlotKind::Sigma:
+            return sigmaPlot(products->trajectories[run]);
+        case PlotKind::GroundHeights:
+            return groundPlot(run, *products);
+        case PlotKind::NormalisedErrors:
+            return normalisedErrors(products->report);
+        case PlotKind::ErrorHistogram:
+            return errorHistogram(products->report);
+        case PlotKind::QuantileQuantile:
+            return quantiles(products->report);
+        case PlotKind::CrossValidation:
+            return crossValidation(products->report);
+        default:
+            return tuningPlot(products->report);
+    }
+}
+
+}  // namespace
+
+const std::vector<PlotKind>& allPlots() {
+    static const std::vector<PlotKind> all{PlotKind::GnssPosition,
+                                           PlotKind::GnssVelocity,
+                                           PlotKind::Barometer,
+                                           PlotKind::OpticalFlow,
+                                           PlotKind::Attitude,
+                                           PlotKind::Acceleration,
+                                           PlotKind::AngularRate,
+                                           PlotKind::Range,
+                                           PlotKind::Position,
+                                           PlotKind::Speed,
+                                           PlotKind::Sigma,
+                                           PlotKind::GroundHeights,
+                                           PlotKind::NormalisedErrors,
+                                           PlotKind::ErrorHistogram,
+                                           PlotKind::QuantileQuantile,
+                                           PlotKind::CrossValidation,
+                                           PlotKind::Tuning};
+    return all;
+}
+
+QString plotName(PlotKind kind) {
+    switch (kind) {
+        case PlotKind::GnssPosition:
+            return QCoreApplication::translate("PlotData", "GNSS position");
+        case PlotKind::GnssVelocity:
+            return QCoreApplication::translate("PlotData", "GNSS velocity");
+        case PlotKind::Barometer:
+            return QCoreApplication::translate("PlotData", "Barometer");
+        case PlotKind::OpticalFlow:
+            return QCoreApplication::translate("PlotData", "Optical flow");
+        case PlotKind::Attitude:
+            return QCoreApplication::translate("PlotData", "Attitude");
+        case PlotKind::Acceleration:
+            return QCoreApplication::translate("PlotData", "Acceleration");
+        case PlotKind::AngularRate:
+            return QCoreApplication::translate("PlotData", "Angular rate");
+        case PlotKind::Range:
+            return QCoreApplication::translate("PlotData", "Range finder");
+        case PlotKind::Position:
+            return QCoreApplication::translate("PlotData", "Position");
+        case PlotKind::Speed:
+            return QCoreApplication::translate("PlotData", "Speed");
+        case PlotKind::Sigma:
+            return QCoreApplication::translate("PlotData", "Sigmas");
+        case PlotKind::GroundHeights:
+            return QCoreApplication::translate("PlotData", "Ground points");
+        case PlotKind::NormalisedErrors:
+            return QCoreApplication::translate("PlotData", "Errors over sigma");
+        case PlotKind::ErrorHistogram:
+            return QCoreApplication::translate("PlotData", "Histogram of errors");
+        case PlotKind::QuantileQuantile:
+            return QCoreApplication::translate("PlotData", "Q-Q of errors");
+        case PlotKind::CrossValidation:
+            return QCoreApplication::translate("PlotData", "Cross-validation");
+        case PlotKind::Tuning:
+            return QCoreApplication::translate("PlotData", "Tuning");
+    }
+    return {};
+}
+
+QString plotGroup(PlotKind kind) {
+    if (kind <= PlotKind::Range) return QCoreApplication::translate("PlotData", "Sensors");
+    if (kind <= PlotKind::GroundHeights) return QCoreApplication::translate("PlotData", "Fused run");
+    if (kind <= PlotKind::QuantileQuantile) return QCoreApplication::translate("PlotData", "Errors at marks");
+    return QCoreApplication::translate("PlotData", "Choices");
+}
+
+bool plotsOneRun(PlotKind kind) {
+    return kind <= PlotKind::GroundHeights;
+}
+
+QString likelySensor(PlotKind kind) {
+    switch (kind) {
+        case PlotKind::GnssPosition:
+        case PlotKind::GnssVelocity:
+            return "gnss";
+        case PlotKind::Barometer:
+            return "barometer";
+        case PlotKind::OpticalFlow:
+            return "flow";
+        case PlotKind::Attitude:
+            return "attitude";
+        case PlotKind::Range:
+        case PlotKind::GroundHeights:
+            return "range";
+        default:
+            return "all";
+    }
+}
+
+Plot plotOf(PlotKind kind, std::size_t run, const Survey& survey, const Products* products) {
+    Plot plot = unnamedPlot(kind, run, survey, products);
+    plot.title = plotName(kind);
+    if (plotsOneRun(kind) && run < survey.runs.size()) {
+        plot.title = QCoreApplication::translate("PlotData", "%1, run %2").arg(plot.title, text(survey.runs[run].id));
+        plot.over_time = true;
+        plot.x_label = QCoreApplication::translate("PlotData", "Time of the log");
+        plot.x_unit = "s";
+    }
+    return plot;
+}
+
+}  // namespace terrawalk::gui

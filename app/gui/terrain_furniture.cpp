@@ -1,0 +1,249 @@
+#include "app/gui/terrain_furniture.hpp"
+
+#include <QCoreApplication>
+#include <QPainterPath>
+#include <algorithm>
+#include <cmath>
+
+#include "app/gui/map_furniture.hpp"
+#include "app/gui/round_numbers.hpp"
+#include "app/gui/terrain_overlay.hpp"
+
+namespace terrawalk::gui {
+
+namespace {
+
+constexpr double kMargin_px = 16.0;
+constexpr double kCompass_px = 56.0;
+constexpr double kPinHeight_px = 22.0;
+
+QString translated(const char* text) {
+    return QCoreApplication::translate("TerrainFurniture", text);
+}
+
+std::optional<QPointF> onScreen(const TerrainFrame& frame, const Eigen::Vector3d& map_m) {
+    const auto seen = frame.camera.project(frame.scene->toScene(map_m, frame.exaggeration));
+    if (!seen) return std::nullopt;
+    return QPointF(seen->x(), seen->y());
+}
+
+/// Text with an edge that sets it off from any ground.
+void drawHaloed(QPainter& painter, QPointF at, const QString& text, const QPalette& palette) {
+    QPainterPath path;
+    path.addText(at, painter.font(), text);
+    QColor halo = palette.color(QPalette::Base);
+    halo.setAlpha(200);
+    painter.strokePath(path, QPen(halo, 2.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    painter.fillPath(path, palette.color(QPalette::Text));
+}
+
+/// Numbers along one edge of the floor, outside of it, as many as have room.
+void drawEdgeNumbers(QPainter& painter, const TerrainFrame& frame, const QPalette& palette, bool eastings,
+                     const FloorGrid& grid) {
+    const Eigen::Vector3d eye = frame.scene->toMap(frame.camera.eye_m(), frame.exaggeration);
+    const double floor_m = frame.scene->origin_map_m().z();
+    const double middle_x = (grid.west_m + grid.east_m) / 2.0, middle_y = (grid.south_m + grid.north_m) / 2.0;
+    const double edge = eastings ? (eye.y() < middle_y ? grid.south_m : grid.north_m)
+                                 : (eye.x() < middle_x ? grid.west_m : grid.east_m);
+    const double from = eastings ? grid.west_m : grid.south_m, to = eastings ? grid.east_m : grid.north_m;
+    const auto place = [&](double at, double beyond) {
+        const double out = edge + (edge > (eastings ? middle_y : middle_x) ? beyond : -beyond);
+        return onScreen(frame,
+                        eastings ? Eigen::Vector3d(at, out, floor_m) : Eigen::Vector3d(out, at, floor_m));
+    };
+    const QFontMetricsF metrics(painter.font());
+    std::vector<QRectF> taken;
+    for (const double at : wholeSteps(from, to, grid.step_m)) {
+        const auto foot = place(at, 0.0), beyond = place(at, grid.step_m * 0.2);
+        if (!foot || !beyond) continue;
+        QPointF away = *beyond - *foot;
+        const double length = std::hypot(away.x(), away.y());
+        if (length < 0.5) continue;
+        away /= length;
+        const QString text = (eastings ? "E " : "N ") + QString::number(at, 'f', grid.step_m < 1.0 ? 1 : 0);
+        const double wide = metrics.horizontalAdvance(text), high = metrics.ascent();
+        const QPointF middle = *foot + QPointF(away.x() * (8.0 + wide / 2.0), away.y() * (8.0 + high / 2.0));
+        const QRectF box(middle.x() - wide / 2.0 - 6.0, middle.y() - high / 2.0 - 2.0, wide + 12.0,
+                         high + 4.0);
+        const bool free = std::none_of(taken.begin(), taken.end(),
+                                       [&](const QRectF& other) { return other.intersects(box); });
+        if (!free) continue;
+        taken.push_back(box);
+        drawHaloed(painter, QPointF(middle.x() - wide / 2.0, middle.y() + high / 2.0 - 1.0), text, palette);
+    }
+}
+
+/// At the corner of the floor that stands farthest to the left, where nothing can hide it.
+void drawHeights(QPainter& painter, const TerrainFrame& frame, const QPalette& palette,
+                 const FloorGrid& grid) {
+    const double floor_m = frame.scene->origin_map_m().z(), top_m = frame.scene->highest_m();
+    std::optional<Eigen::Vector3d> corner;
+    double leftmost_px = HUGE_VAL;
+    for (const double x : {grid.west_m, grid.east_m}) {
+        for (const double y : {grid.south_m, grid.north_m}) {
+            const auto seen = onScreen(frame, {x, y, floor_m});
+            if (!seen || seen->x() >= leftmost_px) continue;
+            leftmost_px = seen->x();
+            corner = Eigen::Vector3d(x, y, floor_m);
+        }
+    }
+    if (!corner) return;
+    const auto at = [&](double height_m) {
+        return onScreen(frame, {corner->x(), corner->y(), height_m});
+    };
+    const auto foot = at(floor_m), head = at(top_m);
+    if (!foot || !head || std::hypot(head->x() - foot->x(), head->y() - foot->y()) < 30.0) return;
+    painter.setPen(QPen(palette.color(QPalette::Text), 1.0));
+    painter.drawLine(*foot, *head);
+    const QFontMetricsF metrics(painter.font());
+    const double length_px = std::hypot(head->x() - foot->x(), head->y() - foot->y());
+    const double tick_m =
+        std::max(roundBelow((top_m - floor_m) / std::max(1.0, length_px / 28.0) * 1.5), 0.01);
+    for (const double h : wholeSteps(floor_m, top_m, tick_m)) {
+        const auto tick = at(h);
+        if (!tick) continue;
+        painter.setPen(QPen(palette.color(QPalette::Text), 1.0));
+        painter.drawLine(*tick, *tick - QPointF(5, 0));
+        const QString text = QString::number(std::abs(h) < tick_m * 1e-6 ? 0.0 : h, 'f', tick_m < 1.0 ? 1 : 0)
+                                 .replace('-', QChar(0x2212)) +
+                             " m";
+        drawHaloed(painter, *tick - QPointF(9.0 + metrics.horizontalAdvance(text), -metrics.ascent() * 0.4),
+                   text, palette);
+    }
+}
+
+bool hidden(const TerrainFrame& frame, const Eigen::Vector3d& scene_m) {
+    const Eigen::Vector3d eye = frame.camera.eye_m(), way = scene_m - eye;
+    const auto hit = frame.scene->firstHit({eye, way.normalized()}, frame.exaggeration);
+    const double slack_m = std::max(0.01 * frame.camera.radius_m, 0.5);
+    return hit && (*hit - eye).norm() < way.norm() - slack_m;
+}
+
+void drawPinHead(QPainter& painter, QPointF at, const ControlMark& mark, bool highlighted) {
+    const double r = highlighted ? 7.0 : 5.0;
+    painter.setPen(QPen(Qt::white, 1.5));
+    painter.setBrush(highlighted ? selectedColour() : QColor(20, 24, 28));
+    if (mark.name == kZeroMark) {
+        painter.drawRect(QRectF(at.x() - r, at.y() - r, 2 * r, 2 * r));
+    } else if (mark.role == MarkRole::Control) {
+        painter.drawPolygon(
+            QPolygonF({at + QPointF(0, -1.2 * r), at + QPointF(r, 0.8 * r), at + QPointF(-r, 0.8 * r)}));
+    } else {
+        painter.drawEllipse(at, 0.8 * r, 0.8 * r);
+    }
+}
+
+void drawCompass(QPainter& painter, const TerrainFrame& frame, QPointF middle, const QPalette& palette) {
+    const double r = kCompass_px / 2.0;
+    drawPanel(painter, QRectF(middle.x() - r, middle.y() - r, 2 * r, 2 * r), palette);
+    // The plane of the ground as it is seen: east and north as directions on the screen.
+    const Eigen::Vector3d right = frame.camera.right(), up = frame.camera.up();
+    const QPointF east(right.x(), -up.x()), north(right.y(), -up.y());
+    const double arm = r * 0.56;
+    const auto at = [&](double e, double n) {
+        return middle + (east * e + north * n) * arm;
+    };
+    painter.setPen(QPen(palette.color(QPalette::Text), 1.0));
+    painter.setBrush(palette.color(QPalette::Text));
+    painter.drawPolygon(QPolygonF({at(0, 1), at(-0.32, -0.7), at(0, -0.4)}));
+    painter.setBrush(palette.color(QPalette::Base));
+    painter.drawPolygon(QPolygonF({at(0, 1), at(0.32, -0.7), at(0, -0.4)}));
+    const QPointF tip =
+        middle + north * (r * 0.56) + north / std::max(std::hypot(north.x(), north.y()), 1e-9) * 8.0;
+    QFont bold = painter.font();
+    bold.setBold(true);
+    painter.save();
+    painter.setFont(bold);
+    painter.drawText(QRectF(tip.x() - 10, tip.y() - 10, 20, 20), Qt::AlignCenter, "N");
+    painter.restore();
+}
+
+void drawNote(QPainter& painter, QPointF lower_left, const QString& text, const QPalette& palette) {
+    const QFontMetricsF metrics(painter.font());
+    const QRectF box(lower_left.x(), lower_left.y() - metrics.height() - 8.0,
+                     metrics.horizontalAdvance(text) + 16.0, metrics.height() + 8.0);
+    drawPanel(painter, box, palette);
+    painter.setPen(palette.color(QPalette::Text));
+    painter.drawText(box, Qt::AlignCenter, text);
+}
+
+}  // namespace
+
+double pinHeight(const TerrainFrame& frame) {
+    return kPinHeight_px * std::cos(frame.camera.elevation_rad);
+}
+
+QString exaggerationText(double exaggeration) {
+    if (std::abs(exaggeration - 1.0) < 1e-9) return {};
+    return QString::fromUtf8("× ") + QString::number(exaggeration, 'g', 3);
+}
+
+void drawAxes(QPainter& painter, const TerrainFrame& frame, const QPalette& palette) {
+    painter.setRenderHint(QPainter::Antialiasing);
+    const FloorGrid grid = floorGrid(*frame.scene);
+    drawEdgeNumbers(painter, frame, palette, true, grid);
+    drawEdgeNumbers(painter, frame, palette, false, grid);
+    drawHeights(painter, frame, palette, grid);
+}
+
+void drawPins(QPainter& painter, const TerrainFrame& frame, const MapScene& map, const QPalette& palette) {
+    if (!map.survey) return;
+    painter.setRenderHint(QPainter::Antialiasing);
+    const QFontMetricsF metrics(painter.font());
+    std::vector<QRectF> taken;
+    for (const PlacedMark& placed : map.survey->marks) {
+        const QString name = QString::fromStdString(placed.mark.name);
+        if (map.hidden_marks.contains(name)) continue;
+        const auto foot = onScreen(frame, placed.map_m);
+        if (!foot) continue;
+        const bool highlighted = map.highlighted == name;
+        const Eigen::Vector3d at_m = frame.scene->toScene(placed.map_m, frame.exaggeration);
+        painter.setOpacity(!frame.moving && !highlighted && hidden(frame, at_m) ? 0.3 : 1.0);
+        const QPointF head = *foot - QPointF(0, pinHeight(frame));
+        painter.setPen(QPen(QColor(255, 255, 255, 180), 3.0));
+        painter.drawLine(*foot, head);
+        painter.setPen(QPen(QColor(20, 24, 28), 1.4));
+        painter.drawLine(*foot, head);
+        drawPinHead(painter, head, placed.mark, highlighted);
+        const QPointF label = head + QPointF(9, metrics.ascent() * 0.4);
+        const QRectF box(label.x(), label.y() - metrics.ascent(), metrics.horizontalAdvance(name),
+                         metrics.height());
+        const bool free = std::none_of(taken.begin(), taken.end(),
+                                       [&](const QRectF& other) { return other.intersects(box); });
+        if (!free && !highlighted) continue;
+        taken.push_back(box);
+        drawHaloed(painter, label, name, palette);
+    }
+    painter.setOpacity(1.0);
+}
+
+void drawPick(QPainter& painter, const TerrainFrame& frame, const Eigen::Vector3d& map_m) {
+    const auto at = onScreen(frame, map_m);
+    if (!at) return;
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setBrush(Qt::NoBrush);
+    for (const auto& [colour, width] :
+         {std::pair{QColor(Qt::white), 4.0}, std::pair{QColor(20, 24, 28), 2.0}}) {
+        painter.setPen(QPen(colour, width));
+        painter.drawEllipse(*at, 7.0, 7.0);
+    }
+    painter.setBrush(selectedColour());
+    painter.setPen(Qt::NoPen);
+    painter.drawEllipse(*at, 2.5, 2.5);
+}
+
+void drawTerrainFurniture(QPainter& painter, const TerrainFrame& frame, const MapScene& map,
+                          const QPalette& palette) {
+    painter.setRenderHint(QPainter::Antialiasing);
+    const double right = frame.camera.viewport_px.x() - kMargin_px, bottom = frame.camera.viewport_px.y();
+    drawCompass(painter, frame, {right - kCompass_px / 2.0, kMargin_px + kCompass_px / 2.0}, palette);
+    drawLegends(painter, map, {right, kMargin_px + kCompass_px + 8.0}, palette);
+    QString note = exaggerationText(frame.exaggeration);
+    note = note.isEmpty() ? translated("Heights as they are") : translated("Heights %1").arg(note);
+    if (frame.contour_interval_m > 0.0) {
+        note += translated(", contours every %1").arg(shortLength(frame.contour_interval_m));
+    }
+    drawNote(painter, {kMargin_px, bottom - kMargin_px}, note, palette);
+}
+
+}  // namespace terrawalk::gui
