@@ -3,13 +3,11 @@
 #include <QFont>
 #include <utility>
 
+#include "app/gui/report_words.hpp"
+
 namespace terrawalk::gui {
 
 namespace {
-
-QString text(std::string_view utf8) {
-    return QString::fromUtf8(utf8.data(), static_cast<qsizetype>(utf8.size()));
-}
 
 QString length(double metres) {
     return QString::number(metres, 'f', 3).replace('-', QChar(0x2212));
@@ -19,11 +17,11 @@ QString cell(const AccuracyGroup& group, int column) {
     const auto& up = group.up;
     switch (column) {
         case AccuracyModel::StageColumn:
-            return text(name(group.stage));
+            return reportWords(name(group.stage));
         case AccuracyModel::QuantityColumn:
-            return text(name(group.quantity));
+            return reportWords(name(group.quantity));
         case AccuracyModel::RoleColumn:
-            return text(name(group.role));
+            return reportWords(name(group.role));
         case AccuracyModel::CountColumn:
             return up                 ? QString::number(up->n)
                    : group.horizontal ? QString::number(group.horizontal->n)

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "app/gui/accuracy_words.hpp"
+#include "app/gui/report_words.hpp"
 #include "app/gui/theme.hpp"
 
 namespace terrawalk::gui {
@@ -35,7 +36,7 @@ QWidget* figureCard(const KeyFigure& figure) {
     column->setSpacing(4);
     auto* value = new QLabel(text(figure.value));
     value->setObjectName("figure");
-    auto* name = new QLabel(text(figure.label));
+    auto* name = new QLabel(reportWords(figure.label));
     name->setWordWrap(true);
     auto* detail = new QLabel(text(figure.detail));
     detail->setObjectName("quiet");

@@ -31,7 +31,9 @@
 #include "app/gui/language.hpp"
 #include "app/gui/map_panel.hpp"
 #include "app/gui/place_panel.hpp"
+#include "app/gui/plot_canvas.hpp"
 #include "app/gui/plots_view.hpp"
+#include "app/gui/profile_plot.hpp"
 #include "app/gui/recent_surveys.hpp"
 #include "app/gui/shortcuts_dialog.hpp"
 #include "app/gui/start_page.hpp"
@@ -166,7 +168,7 @@ void MainWindow::buildDocks() {
     tree_->setHeaderHidden(true);
     tree_->setContextMenuPolicy(Qt::CustomContextMenu);
     tree_->setIndentation(16);
-    tree_->setMinimumWidth(200);
+    tree_->setMinimumWidth(264);
     tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     tree_->setFrameShape(QFrame::NoFrame);
     tree_->setAccessibleName(tr("Survey"));
@@ -209,6 +211,11 @@ void MainWindow::buildDocks() {
     auto* tree_dock = addDock(Qt::LeftDockWidgetArea, "dock_survey", tr("Survey"), tree_);
     auto* place_dock = addDock(Qt::LeftDockWidgetArea, "dock_place", tr("Place"), place_);
     auto* steps_dock = addDock(Qt::RightDockWidgetArea, "dock_steps", tr("Steps"), steps_);
+    profile_ = new PlotCanvas;
+    profile_->setObjectName("profile_plot");
+    profile_->setMinimumHeight(160);
+    profile_dock_ = addDock(Qt::BottomDockWidgetArea, "dock_profile", tr("Profile"), profile_);
+    profile_dock_->hide();
     auto* message_dock = addDock(Qt::BottomDockWidgetArea, "dock_messages", tr("Messages"), messages_);
     resizeDocks({tree_dock, steps_dock}, {288, 328}, Qt::Horizontal);
     resizeDocks({tree_dock, place_dock}, {340, 340}, Qt::Vertical);
@@ -548,7 +555,16 @@ void MainWindow::treeMenu(const QPoint& at) {
     if (!menu.isEmpty()) menu.exec(tree_->viewport()->mapToGlobal(at));
 }
 
-void MainWindow::showProfile(const QPolygonF&) {}
+void MainWindow::showProfile(const QPolygonF& line_m) {
+    const auto products = session_.products();
+    if (!products) {
+        say(MessageKind::Info, tr("Process the survey first: a profile needs a surface."));
+        return;
+    }
+    profile_->show(profilePlot(*products, *session_.map(), line_m));
+    profile_dock_->show();
+    profile_dock_->raise();
+}
 
 void MainWindow::showShortcuts() {
     auto* dialog = new ShortcutsDialog(actions_, map_->toolActions(), this);
@@ -588,6 +604,7 @@ void MainWindow::setTheme(Theme theme) {
     map_->themeChanged();
     terrain_->themeChanged();
     plots_->themeChanged();
+    profile_->themeChanged();
     message_model_.themeChanged();
     steps_->themeChanged();
     accuracy_->show(session_.products());

@@ -22,6 +22,7 @@ namespace terrawalk::gui {
 class AccuracyPanel;
 class MapPanel;
 class PlacePanel;
+class PlotCanvas;
 class PlotsView;
 class TerrainView;
 class StartPage;
@@ -100,6 +101,8 @@ class MainWindow : public QMainWindow {
     MapPanel* map_ = nullptr;
     TerrainView* terrain_ = nullptr;
     PlotsView* plots_ = nullptr;
+    PlotCanvas* profile_ = nullptr;
+    QDockWidget* profile_dock_ = nullptr;
     AccuracyPanel* accuracy_ = nullptr;
     PlacePanel* place_ = nullptr;
     StepsPanel* steps_ = nullptr;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/report_words.hpp"
 #include "app/gui/theme.hpp"
 
 namespace terrawalk::gui {
@@ -142,9 +143,7 @@ void addSamples(QVBoxLayout& column, const PlaceReport& place) {
         QString where = PlacePanel::tr("%1 %2 s").arg(run, QString::number(sample.time_s, 'f', 1));
         auto* first = line(where);
         if (sample.state != GroundPointState::Used) {
-            const auto reason = name(sample.state);
-            first->setText(where + " · " +
-                           QString::fromUtf8(reason.data(), static_cast<qsizetype>(reason.size())));
+            first->setText(where + " · " + reportWords(name(sample.state)));
             first->setObjectName("quiet");
         }
         grid->addWidget(first, row, 0);

@@ -153,14 +153,21 @@ Plot sensorPlot(PlotKind kind, const Run& run) {
             break;
     }
     if (plot.panels.empty()) {
-        plot.reason = QCoreApplication::translate("PlotData", "The log of run %1 has no readings of this sensor.").arg(text(run.id));
+        plot.reason =
+            QCoreApplication::translate("PlotData", "The log of run %1 has no readings of this sensor.")
+                .arg(text(run.id));
     }
     return plot;
 }
 
 /// The antenna's places as they were logged, one axis.
 PlotSeries gnssDots(const Survey& survey, const Run& run, int axis) {
-    PlotSeries dots{QCoreApplication::translate("PlotData", "GNSS, as logged"), SeriesStyle::Dots, SeriesInk::Quiet, {}, {}, {}};
+    PlotSeries dots{QCoreApplication::translate("PlotData", "GNSS, as logged"),
+                    SeriesStyle::Dots,
+                    SeriesInk::Quiet,
+                    {},
+                    {},
+                    {}};
     const LocalFrame frame = survey.frame();
     const std::size_t step = 1 + run.log.size() / kMostGnssDots;
     for (std::size_t i = 0; i < run.log.size(); i += step) {
@@ -199,7 +206,9 @@ double speedSigma(const TrajectoryEpoch& epoch) {
 
 Plot positionPlot(const Survey& survey, std::size_t run, const Trajectory& trajectory) {
     Plot plot;
-    const std::array<QString, 3> axes{QCoreApplication::translate("PlotData", "East"), QCoreApplication::translate("PlotData", "North"), QCoreApplication::translate("PlotData", "Height")};
+    const std::array<QString, 3> axes{QCoreApplication::translate("PlotData", "East"),
+                                      QCoreApplication::translate("PlotData", "North"),
+                                      QCoreApplication::translate("PlotData", "Height")};
     for (int axis = 0; axis < 3; ++axis) {
         PlotPanel panel{axes[static_cast<std::size_t>(axis)], "m", 2, {}, false};
         auto dots = gnssDots(survey, survey.runs[run], axis);
@@ -278,10 +287,11 @@ Plot groundPlot(std::size_t run, const Products& products) {
         series.sets_scale = state == GroundPointState::Used || !some_used;
         panel.series.push_back(std::move(series));
     }
-    plot.note =
-        QCoreApplication::translate("PlotData", "The heights fit the points that are used; those that were refused may lie beyond.");
+    plot.note = QCoreApplication::translate(
+        "PlotData", "The heights fit the points that are used; those that were refused may lie beyond.");
     if (panel.series.empty()) {
-        plot.reason = QCoreApplication::translate("PlotData", "This run has no ground points: its range finder gave nothing.");
+        plot.reason = QCoreApplication::translate(
+            "PlotData", "This run has no ground points: its range finder gave nothing.");
     } else {
         plot.panels.push_back(std::move(panel));
     }
@@ -310,16 +320,24 @@ Plot normalisedErrors(const SurveyReport& report) {
         QString name;
     };
     const std::array<Kind, 4> kinds{
-        Kind{Stage::Fused, Quantity::ArrayPosition, true, QCoreApplication::translate("PlotData", "Track, tied to the mark")},
+        Kind{Stage::Fused, Quantity::ArrayPosition, true,
+             QCoreApplication::translate("PlotData", "Track, tied to the mark")},
         Kind{Stage::Fused, Quantity::ArrayPosition, false, QCoreApplication::translate("PlotData", "Track")},
         Kind{Stage::Surface, Quantity::SurfaceHeight, true,
              QCoreApplication::translate("PlotData", "Surface, mark used by the estimator")},
-        Kind{Stage::Surface, Quantity::SurfaceHeight, false, QCoreApplication::translate("PlotData", "Surface")}};
-    const std::array<QString, 3> axes{QCoreApplication::translate("PlotData", "East"), QCoreApplication::translate("PlotData", "North"), QCoreApplication::translate("PlotData", "Height")};
+        Kind{Stage::Surface, Quantity::SurfaceHeight, false,
+             QCoreApplication::translate("PlotData", "Surface")}};
+    const std::array<QString, 3> axes{QCoreApplication::translate("PlotData", "East"),
+                                      QCoreApplication::translate("PlotData", "North"),
+                                      QCoreApplication::translate("PlotData", "Height")};
     std::size_t n = 0, within = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        PlotPanel panel{
-            QCoreApplication::translate("PlotData", "%1, error over σ").arg(axes[static_cast<std::size_t>(axis)]), {}, 2, {}, false};
+        PlotPanel panel{QCoreApplication::translate("PlotData", "%1, error over σ")
+                            .arg(axes[static_cast<std::size_t>(axis)]),
+                        {},
+                        2,
+                        {},
+                        false};
         for (std::size_t k = 0; k < kinds.size(); ++k) {
             PlotSeries series{kinds[k].name, SeriesStyle::Dots, static_cast<SeriesInk>(3 - k), {}, {}, {}};
             for (const Residual& r : report.residuals) {
@@ -353,8 +371,8 @@ Plot normalisedErrors(const SurveyReport& report) {
                         .arg(100.0 * static_cast<double>(within) / static_cast<double>(n), 0, 'f', 0);
     }
     if (plot.panels.empty()) {
-        plot.reason =
-            QCoreApplication::translate("PlotData", "No errors at marks. Add marks to the survey's control.csv and process again.");
+        plot.reason = QCoreApplication::translate(
+            "PlotData", "No errors at marks. Add marks to the survey's control.csv and process again.");
     }
     return plot;
 }
@@ -370,8 +388,9 @@ std::vector<double> heightErrors(const SurveyReport& report, QString& of_what) {
         }
         if (errors.size() < 3) continue;
         std::sort(errors.begin(), errors.end());
-        of_what = stage == Stage::Surface ? QCoreApplication::translate("PlotData", "Height error of the surface")
-                                          : QCoreApplication::translate("PlotData", "Height error of the tracks");
+        of_what = stage == Stage::Surface
+                      ? QCoreApplication::translate("PlotData", "Height error of the surface")
+                      : QCoreApplication::translate("PlotData", "Height error of the tracks");
         return errors;
     }
     return {};
@@ -410,7 +429,8 @@ Plot errorHistogram(const SurveyReport& report) {
     if (!(width > 0.0)) width = 0.01;
     const double first = std::floor(errors.front() / width);
     const auto bins = static_cast<std::size_t>(std::floor(errors.back() / width) - first) + 1;
-    PlotSeries bars{QCoreApplication::translate("PlotData", "Marks"), SeriesStyle::Bars, SeriesInk::First, {}, {}, {}};
+    PlotSeries bars{
+        QCoreApplication::translate("PlotData", "Marks"), SeriesStyle::Bars, SeriesInk::First, {}, {}, {}};
     for (std::size_t i = 0; i < bins; ++i) {
         bars.x.push_back((first + static_cast<double>(i) + 0.5) * width);
         bars.y.push_back(0.0);
@@ -418,8 +438,12 @@ Plot errorHistogram(const SurveyReport& report) {
     for (const double e : errors) {
         bars.y[std::min(bins - 1, static_cast<std::size_t>(std::floor(e / width) - first))] += 1.0;
     }
-    PlotSeries bell{
-        QCoreApplication::translate("PlotData", "Normal, of the same mean and SD"), SeriesStyle::Line, SeriesInk::Second, {}, {}, {}};
+    PlotSeries bell{QCoreApplication::translate("PlotData", "Normal, of the same mean and SD"),
+                    SeriesStyle::Line,
+                    SeriesInk::Second,
+                    {},
+                    {},
+                    {}};
     for (int i = -80; i <= 80 && m.sd > 0.0; ++i) {
         const double z = i / 20.0;
         bell.x.push_back(m.mean + z * m.sd);
@@ -429,7 +453,8 @@ Plot errorHistogram(const SurveyReport& report) {
     plot.x_label = what;
     plot.x_unit = "m";
     plot.bar_width = width;
-    plot.panels.push_back({QCoreApplication::translate("PlotData", "Marks"), {}, 0, {std::move(bars), std::move(bell)}, true});
+    plot.panels.push_back(
+        {QCoreApplication::translate("PlotData", "Marks"), {}, 0, {std::move(bars), std::move(bell)}, true});
     double square = 0.0;
     for (const double e : errors) square += e * e / n;
     plot.note = QCoreApplication::translate("PlotData", "n %1, mean %2, SD %3, RMSE %4")
@@ -452,7 +477,8 @@ Plot quantiles(const SurveyReport& report) {
     QString what;
     const std::vector<double> errors = heightErrors(report, what);
     if (errors.empty()) return fewErrors();
-    PlotSeries dots{QCoreApplication::translate("PlotData", "Marks"), SeriesStyle::Dots, SeriesInk::First, {}, {}, {}};
+    PlotSeries dots{
+        QCoreApplication::translate("PlotData", "Marks"), SeriesStyle::Dots, SeriesInk::First, {}, {}, {}};
     for (std::size_t i = 0; i < errors.size(); ++i) {
         dots.x.push_back(normalQuantile((static_cast<double>(i) + 0.5) / static_cast<double>(errors.size())));
         dots.y.push_back(errors[i]);
@@ -472,7 +498,8 @@ Plot quantiles(const SurveyReport& report) {
     Plot plot;
     plot.x_label = QCoreApplication::translate("PlotData", "Quantile of the normal distribution (σ)");
     plot.panels.push_back({what, "m", 2, {std::move(dots), std::move(line)}, false});
-    plot.note = QCoreApplication::translate("PlotData", "n %1, median %2, NMAD %3. Ends that leave the line are heavier than normal.")
+    plot.note = QCoreApplication::translate(
+                    "PlotData", "n %1, median %2, NMAD %3. Ends that leave the line are heavier than normal.")
                     .arg(errors.size())
                     .arg(metres(middle), metres(nmad));
     return plot;
@@ -488,7 +515,8 @@ Plot crossValidation(const SurveyReport& report) {
     }
     const InterpolationComparison& comparison = *report.surface.comparison;
     plot.x_label = QCoreApplication::translate("PlotData", "Method, best first");
-    PlotPanel panel{QCoreApplication::translate("PlotData", "Error of points left out, RMSE"), "m", 3, {}, true};
+    PlotPanel panel{
+        QCoreApplication::translate("PlotData", "Error of points left out, RMSE"), "m", 3, {}, true};
     for (const std::string& method : comparison.ranking) plot.categories << text(method);
     const double share = 0.8 / static_cast<double>(std::max<std::size_t>(1, comparison.hold_outs.size()));
     plot.bar_width = share;
@@ -515,17 +543,26 @@ Plot crossValidation(const SurveyReport& report) {
 Plot tuningPlot(const SurveyReport& report) {
     Plot plot;
     if (!report.tuning) {
-        plot.reason = QCoreApplication::translate("PlotData", "Nothing was tuned. Tune the survey on its own marks to compare here.");
+        plot.reason = QCoreApplication::translate(
+            "PlotData", "Nothing was tuned. Tune the survey on its own marks to compare here.");
         return plot;
     }
     const TuningRecord& tuning = *report.tuning;
     plot.categories << QCoreApplication::translate("PlotData", "on its marks");
     plot.x_label = QCoreApplication::translate("PlotData", "Loss");
     plot.bar_width = 0.35;
-    PlotSeries before{
-        QCoreApplication::translate("PlotData", "Before"), SeriesStyle::Bars, SeriesInk::Quiet, {-0.2}, {tuning.loss_before}, {}};
-    PlotSeries after{
-        QCoreApplication::translate("PlotData", "After"), SeriesStyle::Bars, SeriesInk::First, {0.2}, {tuning.loss_after}, {}};
+    PlotSeries before{QCoreApplication::translate("PlotData", "Before"),
+                      SeriesStyle::Bars,
+                      SeriesInk::Quiet,
+                      {-0.2},
+                      {tuning.loss_before},
+                      {}};
+    PlotSeries after{QCoreApplication::translate("PlotData", "After"),
+                     SeriesStyle::Bars,
+                     SeriesInk::First,
+                     {0.2},
+                     {tuning.loss_after},
+                     {}};
     if (tuning.left_out_before && tuning.left_out_after) {
         plot.categories << QCoreApplication::translate("PlotData", "on marks left out");
         before.x.push_back(0.8);
@@ -671,7 +708,8 @@ Plot plotOf(PlotKind kind, std::size_t run, const Survey& survey, const Products
     Plot plot = unnamedPlot(kind, run, survey, products);
     plot.title = plotName(kind);
     if (plotsOneRun(kind) && run < survey.runs.size()) {
-        plot.title = QCoreApplication::translate("PlotData", "%1, run %2").arg(plot.title, text(survey.runs[run].id));
+        plot.title =
+            QCoreApplication::translate("PlotData", "%1, run %2").arg(plot.title, text(survey.runs[run].id));
         plot.over_time = true;
         plot.x_label = QCoreApplication::translate("PlotData", "Time of the log");
         plot.x_unit = "s";

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/report_words.hpp"
 #include "app/gui/step_card.hpp"
 #include "app/gui/survey_session.hpp"
 #include "app/gui/theme.hpp"
@@ -202,7 +203,7 @@ void StepsPanel::showState() {
     const auto* figure =
         products && !products->report.figures.empty() ? &products->report.figures.front() : nullptr;
     figure_->setText(figure != nullptr ? text(figure->value) : tr("not checked yet"));
-    figure_detail_->setText(figure != nullptr ? text(figure->label) + ". " + text(figure->detail)
+    figure_detail_->setText(figure != nullptr ? reportWords(figure->label) + ". " + text(figure->detail)
                                               : tr("Process the survey to see its errors at the marks."));
     const bool marks = survey && !survey->marks.empty();
     tune_->setEnabled(!busy && marks);

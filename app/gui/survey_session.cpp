@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/gui/accuracy_words.hpp"
+#include "app/gui/report_words.hpp"
 #include "app/gui/setting_editor.hpp"
 #include "app/pipeline/jobs.hpp"
 #include "app/pipeline/tune_jobs.hpp"
@@ -142,10 +143,10 @@ void SurveySession::finishRun(FinishedRun run) {
     Q_EMIT productsChanged();
     const SurveyReport& report = products()->report;
     for (const std::string& line : report.warnings) Q_EMIT told(MessageKind::Warning, text(line));
-    const QString figure =
-        report.figures.empty()
-            ? QString()
-            : tr(" %1: %2.").arg(text(report.figures.front().label), text(report.figures.front().value));
+    const QString figure = report.figures.empty() ? QString()
+                                                  : tr(" %1: %2.")
+                                                        .arg(reportWords(report.figures.front().label),
+                                                             text(report.figures.front().value));
     Q_EMIT told(MessageKind::Done, tr("Processed.") + figure + (change.isEmpty() ? QString() : " " + change));
 }
 

@@ -147,4 +147,21 @@ Result<std::vector<Contour>> surfaceContours(const Products& products, double in
     return std::move(lines->contours);
 }
 
+SurfaceProfile surfaceProfile(const Products& products, const SurveyMap& map,
+                              const std::vector<Eigen::Vector2d>& line_m) {
+    const double cell_m = products.dem.geometry.cell_m;
+    std::optional<ElevationGrid> sigmas;
+    if (products.uncertainty) sigmas = ElevationGrid{products.dem.geometry, products.uncertainty->sigmas_m};
+    SurfaceProfile profile;
+    profile.points = profileAlong(products.dem, sigmas ? &*sigmas : nullptr, line_m, 0.5 * cell_m);
+    for (const PlacedMark& placed : map.marks) {
+        const LineOffset at = offsetFrom(line_m, placed.map_m.head<2>());
+        const bool beside =
+            (placed.map_m.head<2>() - line_m.front()).norm() < 2.0 * cell_m || at.distance > 0.0;
+        if (!beside || std::abs(at.offset) > 2.0 * cell_m) continue;
+        profile.marks.push_back({placed.mark.name, at.distance, placed.map_m.z()});
+    }
+    return profile;
+}
+
 }  // namespace terrawalk

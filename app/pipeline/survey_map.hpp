@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/pipeline/process.hpp"
+#include "mapping/profile.hpp"
 #include "survey/contour.hpp"
 #include "survey/result.hpp"
 #include "survey/survey.hpp"
@@ -49,6 +50,21 @@ struct SurveyMap {
 /// contourLines().
 [[nodiscard]] Result<std::vector<Contour>> surfaceContours(const Products& products, double interval_m,
                                                            Progress& progress, const std::stop_token& stop);
+
+/// Heights and their sigmas along a line over the products' surface, half a cell apart, and the marks beside
+/// it.
+struct SurfaceProfile {
+    struct Mark {
+        std::string name;
+        double distance_m = 0.0;  ///< along the line
+        double height_m = 0.0;
+    };
+    std::vector<ProfilePoint> points;
+    std::vector<Mark> marks;  ///< no farther than two cells from the line
+};
+/// @param line_m  at least two vertices, map frame
+[[nodiscard]] SurfaceProfile surfaceProfile(const Products& products, const SurveyMap& map,
+                                            const std::vector<Eigen::Vector2d>& line_m);
 
 /// The fused tracks, and the marks with their errors. Errors: as above.
 /// @param products  of this survey

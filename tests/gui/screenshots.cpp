@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <QComboBox>
 #include <QDir>
+#include <QDockWidget>
 #include <QElapsedTimer>
 #include <QSettings>
 #include <QStandardPaths>
@@ -79,6 +80,10 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
     window.findChild<QAction*>("contours")->setChecked(true);
     camera.shoot("uncertainty");
     choose("layers", 0);
+    Q_EMIT window.map().lineDrawn(
+        MapTool::Profile, QPolygonF({extent.center() - QPointF(5, 25), extent.center() + QPointF(5, 25)}));
+    camera.shoot("profile");
+    window.findChild<QDockWidget*>("dock_profile")->hide();
     choose("colourings", 1);
     const MapTrack& track = session.map()->tracks.back();
     const std::size_t n = track.time_s.size();

@@ -22,6 +22,7 @@
 #include "app/gui/desktop.hpp"
 #include "app/gui/export_dialog.hpp"
 #include "app/gui/language.hpp"
+#include "app/gui/plot_canvas.hpp"
 #include "app/gui/start_page.hpp"
 #include "app/gui/theme.hpp"
 
@@ -55,6 +56,7 @@ class WindowTest : public QObject {
     void clickTellsTheHeightThere();
     void stretchIsExcludedByDraggingAlongATrackAndUndoBringsItBack();
     void breaklineIsDrawnByClicksAndHoldsTheSurface();
+    void profileShowsHeightsAlongALine();
     void settingsAreCheckedAndUndone();
     void cancelStopsSoonAndKeepsWhatWasThere();
     void windowAnswersWhileItWorks();
@@ -221,6 +223,25 @@ void WindowTest::breaklineIsDrawnByClicksAndHoldsTheSurface() {
     QCOMPARE(session().edits().lines.size(), std::size_t{1});
     QTest::keyClick(&map, Qt::Key_Escape);
     QCOMPARE(map.tool(), MapTool::Pan);
+}
+
+void WindowTest::profileShowsHeightsAlongALine() {
+    processed();
+    MapView& map = window_->map();
+    const QPointF centre = map.scene().extent_m().center();
+    action("tool_profile").trigger();
+    QTest::mouseClick(&map, Qt::LeftButton, {}, map.transform().toScreen(centre - QPointF(4, 0)).toPoint());
+    QTest::mouseClick(&map, Qt::LeftButton, {}, map.transform().toScreen(centre + QPointF(4, 0)).toPoint());
+    QTest::keyClick(&map, Qt::Key_Return);
+    auto* profile = window_->findChild<PlotCanvas*>("profile_plot");
+    QVERIFY(profile->isVisible());
+    const Plot& plot = profile->plot();
+    QCOMPARE(plot.panels.size(), std::size_t{1});
+    const PlotSeries& line = plot.panels[0].series[0];
+    QVERIFY(std::abs(line.x.back() - 8.0) < 2.5 / map.transform().pixels_per_m);
+    const auto& report = session().products()->report.surface;
+    for (const double height : line.y)
+        QVERIFY(std::isnan(height) || (height >= report.lowest_m && height <= report.highest_m));
 }
 
 void WindowTest::settingsAreCheckedAndUndone() {
