@@ -10,7 +10,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <mutex>
 #include <new>
 #include <numeric>
 #include <tuple>
@@ -23,12 +22,8 @@
 namespace terrawalk {
 
 struct DelaunayTin::Surface {
-    TriangleMesh mesh;
-    double longest_edge_m = 0.0;
-    double area_m2 = 0.0;
-    /// Only who asks for heights pays for the locator.
-    mutable std::once_flag locator_made;
-    mutable std::optional<TriangleLocator> locator;
+    GroundMesh ground;
+    LocatorOnDemand locator;
 };
 
 namespace {
@@ -81,11 +76,24 @@ std::vector<std::uint32_t> insertionOrder(std::size_t count) {
     return order;
 }
 
+/// Each triangle from its lowest index on.
+std::vector<Triangle> trianglesOf(const Triangulation& triangulation) {
+    std::vector<Triangle> triangles;
+    triangles.reserve(triangulation.number_of_faces());
+    for (const auto face : triangulation.finite_face_handles()) {
+        const std::uint32_t a = face->vertex(0)->info(), b = face->vertex(1)->info(),
+                            c = face->vertex(2)->info();
+        const bool first = a < b && a < c, second = b < c;
+        triangles.push_back(first ? Triangle{a, b, c} : second ? Triangle{b, c, a} : Triangle{c, a, b});
+    }
+    return triangles;
+}
+
 /// @param off_line  a point that makes a triangle with the first and the last. These three come first: along
 /// a
 ///                  straight line alone CGAL searches from end to end for each point.
-Result<Triangulation> triangulate(const std::vector<Eigen::Vector3d>& points_m, std::size_t off_line,
-                                  Progress& progress, std::stop_token stop) {
+Result<std::vector<Triangle>> triangulate(const std::vector<Eigen::Vector3d>& points_m, std::size_t off_line,
+                                          Progress& progress, std::stop_token stop) {
     Triangulation triangulation;
     Triangulation::Face_handle near;
     const auto insert = [&](std::size_t i) {
@@ -107,28 +115,20 @@ Result<Triangulation> triangulate(const std::vector<Eigen::Vector3d>& points_m, 
         }
         insert(i);
     }
-    return triangulation;
+    return trianglesOf(triangulation);
 }
 
-/// Each triangle from its lowest index on, in rising order: the same list however CGAL stores its faces.
-std::vector<Triangle> orderedTriangles(const Triangulation& triangulation, std::size_t vertex_count) {
-    std::vector<Triangle> found;
-    found.reserve(triangulation.number_of_faces());
-    std::vector<std::size_t> begins(vertex_count + 1, 0);
-    for (const auto face : triangulation.finite_face_handles()) {
-        Triangle triangle{face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()};
-        std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
-        found.push_back(triangle);
-        ++begins[triangle[0] + 1];
-    }
-    std::partial_sum(begins.begin(), begins.end(), begins.begin());
-    std::vector<Triangle> ordered(found.size());
-    std::vector<std::size_t> next(begins.begin(), begins.end() - 1);
-    for (const Triangle& triangle : found) {
-        ordered[next[triangle[0]]++] = triangle;
-    }
-    for (std::size_t vertex = 0; vertex < vertex_count; ++vertex) {
-        std::sort(ordered.data() + begins[vertex], ordered.data() + begins[vertex + 1]);
+/// In rising order: the same list however CGAL stores its faces.
+std::vector<Triangle> inRisingOrder(const std::vector<Triangle>& triangles, std::size_t vertex_count) {
+    std::vector<std::uint32_t> ends(vertex_count, 0);  // at first the begins, then moved on
+    for (const Triangle& triangle : triangles) ++ends[triangle[0]];
+    std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), std::uint32_t{0});
+    std::vector<Triangle> ordered(triangles.size());
+    for (const Triangle& triangle : triangles) ordered[ends[triangle[0]]++] = triangle;
+    std::uint32_t begin = 0;
+    for (const std::uint32_t end : ends) {
+        std::sort(ordered.data() + begin, ordered.data() + end);
+        begin = end;
     }
     return ordered;
 }
@@ -209,20 +209,18 @@ Result<TriangleMesh> delaunayMesh(const std::vector<Eigen::Vector3d>& points_m, 
         return badData(fmt::format("all {} ground points lie on one straight line", mesh.vertices_m.size()),
                        {}, 0, kCure);
     }
-    const Result<Triangulation> triangulation = triangulate(mesh.vertices_m, *off_line, progress, stop);
-    if (!triangulation) {
-        return tl::unexpected(triangulation.error());
+    const auto triangles = triangulate(mesh.vertices_m, *off_line, progress, stop);
+    if (!triangles) {
+        return tl::unexpected(triangles.error());
     }
-    mesh.triangles = orderedTriangles(*triangulation, mesh.vertices_m.size());
+    mesh.triangles = inRisingOrder(*triangles, mesh.vertices_m.size());
     return mesh;
 }
 
 }  // namespace
 
-DelaunayTin::DelaunayTin(std::shared_ptr<const Surface> surface) : surface_(std::move(surface)) {}
-
-Result<DelaunayTin> DelaunayTin::build(const std::vector<Eigen::Vector3d>& points_m,
-                                       const TinOptions& options, Progress& progress, std::stop_token stop) {
+Result<GroundMesh> triangulatePoints(const std::vector<Eigen::Vector3d>& points_m, const TinOptions& options,
+                                     Progress& progress, std::stop_token stop) {
     if (!(options.longest_edge_m >= 0.0)) {
         return usageError("the longest edge of the surface's triangles may not be below zero",
                           "give metres, or 0 to take it from the points");
@@ -233,23 +231,23 @@ Result<DelaunayTin> DelaunayTin::build(const std::vector<Eigen::Vector3d>& point
             return tl::unexpected(mesh.error());
         }
         const std::vector<TriangleExtent> extent = extents(*mesh);
-        auto surface = std::make_shared<Surface>();
-        surface->longest_edge_m = options.longest_edge_m > 0.0
-                                      ? options.longest_edge_m
-                                      : longestEdgeLimit(extent, mesh->vertices_m.size());
-        surface->mesh = withinLimit(std::move(*mesh), extent, surface->longest_edge_m);
-        if (surface->mesh.triangles.empty()) {
+        GroundMesh ground;
+        ground.longest_edge_m = options.longest_edge_m > 0.0
+                                    ? options.longest_edge_m
+                                    : longestEdgeLimit(extent, mesh->vertices_m.size());
+        ground.mesh = withinLimit(std::move(*mesh), extent, ground.longest_edge_m);
+        if (ground.mesh.triangles.empty()) {
             return badData(fmt::format("no triangle between the ground points has all edges within {} m",
-                                       surface->longest_edge_m),
+                                       ground.longest_edge_m),
                            {}, 0, "allow a longer edge, or 0 to take the limit from the points");
         }
         for (const TriangleExtent& triangle : extent) {
-            if (triangle.longest_edge_m <= surface->longest_edge_m) {
-                surface->area_m2 += triangle.area_m2;
+            if (triangle.longest_edge_m <= ground.longest_edge_m) {
+                ground.area_m2 += triangle.area_m2;
             }
         }
         progress.report(1.0, "triangulating");
-        return DelaunayTin(std::move(surface));
+        return ground;
     } catch (const std::bad_alloc&) {
         return systemError(fmt::format("not enough memory to triangulate {} points", points_m.size()), {},
                            "thin the points");
@@ -258,19 +256,29 @@ Result<DelaunayTin> DelaunayTin::build(const std::vector<Eigen::Vector3d>& point
     }
 }
 
+DelaunayTin::DelaunayTin(std::shared_ptr<const Surface> surface) : surface_(std::move(surface)) {}
+
+Result<DelaunayTin> DelaunayTin::build(const std::vector<Eigen::Vector3d>& points_m,
+                                       const TinOptions& options, Progress& progress, std::stop_token stop) {
+    auto ground = triangulatePoints(points_m, options, progress, std::move(stop));
+    if (!ground) return tl::unexpected(ground.error());
+    auto surface = std::make_shared<Surface>();
+    surface->ground = std::move(*ground);
+    return DelaunayTin(std::move(surface));
+}
+
 const TriangleMesh& DelaunayTin::mesh() const {
-    return surface_->mesh;
+    return surface_->ground.mesh;
 }
 double DelaunayTin::longestEdge_m() const {
-    return surface_->longest_edge_m;
+    return surface_->ground.longest_edge_m;
 }
 double DelaunayTin::area_m2() const {
-    return surface_->area_m2;
+    return surface_->ground.area_m2;
 }
 
 std::optional<double> DelaunayTin::heightAt(double x_m, double y_m) const {
-    std::call_once(surface_->locator_made, [this] { surface_->locator.emplace(surface_->mesh); });
-    return surface_->locator->heightAt(surface_->mesh, x_m, y_m);
+    return surface_->locator.of(mesh()).heightAt(mesh(), x_m, y_m);
 }
 
 }  // namespace terrawalk

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <malloc.h>
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
@@ -6,6 +7,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <new>
 #include <optional>
 #include <ranges>
@@ -505,6 +507,10 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     using namespace terrawalk;
+    // Large arrays come and go: given back to the system and taken again, each page costs a fault. Half the
+    // faults of a large surface are spared.
+    mallopt(M_MMAP_THRESHOLD, std::numeric_limits<int>::max());
+    mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
     int code = exitCode(ErrorKind::System);
     try {
         code = run(argc, argv);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "app/pipeline/memory_need.hpp"
@@ -137,6 +138,16 @@ Result<GridGeometry> geometryOf(const SurfaceRequest& request, const GroundTrian
     return gridCovering(GridExtent{west, south, east, north}, cell);
 }
 
+/// Points and surface end with this function: writing needs their memory.
+Result<InterpolatedGrid> gridOf(SurfaceInput input, GroundTriangles ground, const GridGeometry& geometry,
+                                InterpolationMethod method, const SurfaceModelOptions& options,
+                                Progress& progress, const std::stop_token& stop) {
+    PartialProgress fitting(progress, 0.0, 0.5), gridding(progress, 0.5, 1.0);
+    const auto surface = SurfaceModel::fit(input, std::move(ground), method, options, fitting, stop);
+    if (!surface) return tl::unexpected(surface.error());
+    return surface->grid(geometry, gridding, stop);
+}
+
 void summarize(const ElevationGrid& grid, SurfaceOutcome& report) {
     report.least_height = std::numeric_limits<double>::infinity();
     report.greatest_height = -report.least_height;
@@ -161,8 +172,8 @@ void noteLeftOver(const fs::path& file, const std::string& reason, std::vector<s
     }
 }
 
-Result<void> writeFiles(const InterpolatedGrid& grid, const std::vector<TerraceEdge>& edges,
-                        SurfaceOutcome& report, const std::stop_token& stop) {
+Result<void> writeFiles(InterpolatedGrid grid, const std::vector<TerraceEdge>& edges, SurfaceOutcome& report,
+                        const std::stop_token& stop) {
     const SurfaceRequest& request = report.request;
     DemDescription description{.crs_wkt2 = report.crs.wkt2,
                                .vertical_datum = report.crs.vertical_datum,
@@ -172,15 +183,17 @@ Result<void> writeFiles(const InterpolatedGrid& grid, const std::vector<TerraceE
                                             {"POINTS", std::to_string(report.points_used)}},
                                .unit = report.crs.unit.symbol};
     report.files = {request.output};
-    if (auto done = writeDem(grid.heights, description, request.output, stop); !done) return done;
-    if (grid.variances_m2.empty()) {
+    std::optional<ElevationGrid> errors;
+    if (!grid.variances_m2.empty()) errors = standardErrors(grid);
+    if (auto done = writeDem(std::move(grid.heights), description, request.output, stop); !done) return done;
+    if (!errors) {
         noteLeftOver(uncertaintyFile(request),
                      fmt::format("method {} gives no uncertainty", name(report.method)), report.notes);
     } else {
         description.quantity = "Standard error of kriging";
         description.title = fmt::format("{}, standard error", request.points.stem().string());
         report.files.push_back(uncertaintyFile(request));
-        if (auto done = writeDem(standardErrors(grid), description, report.files.back(), stop); !done)
+        if (auto done = writeDem(std::move(*errors), description, report.files.back(), stop); !done)
             return done;
     }
     if (edges.empty()) {
@@ -315,14 +328,13 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
     if (report.validation && ground->constrained) {
         report.notes.emplace_back("the cross-validation is of the points without the breaklines");
     }
-    PartialProgress fitting(progress, 0.7, 0.8), gridding(progress, 0.8, 0.9);
-    const auto surface = SurfaceModel::fit(input, std::move(*ground), report.method, model, fitting, stop);
-    if (!surface) return tl::unexpected(surface.error());
-    const auto grid = surface->grid(*geometry, gridding, stop);
+    const std::vector<TerraceEdge> edges = std::move(ground->terrace_edges);
+    PartialProgress fitting(progress, 0.7, 0.9);
+    auto grid = gridOf(std::move(input), std::move(*ground), *geometry, report.method, model, fitting, stop);
     if (!grid) return tl::unexpected(grid.error());
     summarize(grid->heights, report);
     progress.report(0.9, "writing");
-    if (auto done = writeFiles(*grid, surface->ground().terrace_edges, report, stop); !done)
+    if (auto done = writeFiles(std::move(*grid), edges, report, stop); !done)
         return tl::unexpected(done.error());
     progress.report(1.0, "done");
     return report;
