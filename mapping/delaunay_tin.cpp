@@ -1,13 +1,10 @@
 #include "mapping/delaunay_tin.hpp"
 
-#include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <new>
@@ -15,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "mapping/delaunay_triangles.hpp"
 #include "mapping/edge_limit.hpp"
 #include "mapping/point_order.hpp"
 #include "mapping/triangle_locator.hpp"
@@ -28,16 +26,10 @@ struct DelaunayTin::Surface {
 
 namespace {
 
-// The triangulation works on the coordinates as they stand: exact predicates need no origin nearby. Heights
-// ride along as indices, which keeps vertices small.
+// Exact predicates work on the coordinates as they stand and need no origin nearby.
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using PlanPoint = Kernel::Point_2;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
-using Triangulation =
-    CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase>>;
 using Triangle = std::array<std::uint32_t, 3>;
-
-constexpr std::size_t kInsertionsBetweenReports = 16384;
 
 PlanPoint plan(const Eigen::Vector3d& point_m) {
     return {point_m.x(), point_m.y()};
@@ -54,77 +46,23 @@ std::optional<std::size_t> findOffLine(const std::vector<Eigen::Vector3d>& point
     return std::nullopt;
 }
 
-/// Biased randomized insertion order (Amenta, Choi and Rote 2003): sparse levels first, each along the curve.
-/// It bounds the cost for points in any arrangement. The level of a point is the number of trailing zero bit
-/// pairs of its scrambled index: a quarter of the points moves up each time.
-std::vector<std::uint32_t> insertionOrder(std::size_t count) {
-    constexpr std::size_t kLevels = 12;
-    const auto level = [](std::size_t index) {
-        std::uint64_t bits = (index + 1) * 0x9E3779B97F4A7C15ULL;
-        bits = (bits ^ (bits >> 32)) * 0xD6E8FEB86659FD93ULL;
-        return std::min<std::size_t>(static_cast<std::size_t>(std::countr_zero(bits >> 16)) / 2, kLevels - 1);
-    };
-    std::array<std::size_t, kLevels + 1> begins{};
-    for (std::size_t i = 0; i < count; ++i) {
-        ++begins[kLevels - level(i)];
-    }
-    std::partial_sum(begins.begin(), begins.end(), begins.begin());
-    std::vector<std::uint32_t> order(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        order[begins[kLevels - 1 - level(i)]++] = static_cast<std::uint32_t>(i);
-    }
-    return order;
+/// From its lowest index on.
+Triangle fromLowest(const Triangle& t) {
+    const auto [a, b, c] = t;
+    if (a < b && a < c) return t;
+    return b < c ? Triangle{b, c, a} : Triangle{c, a, b};
 }
 
-/// Each triangle from its lowest index on.
-std::vector<Triangle> trianglesOf(const Triangulation& triangulation) {
-    std::vector<Triangle> triangles;
-    triangles.reserve(triangulation.number_of_faces());
-    for (const auto face : triangulation.finite_face_handles()) {
-        const std::uint32_t a = face->vertex(0)->info(), b = face->vertex(1)->info(),
-                            c = face->vertex(2)->info();
-        const bool first = a < b && a < c, second = b < c;
-        triangles.push_back(first ? Triangle{a, b, c} : second ? Triangle{b, c, a} : Triangle{c, a, b});
-    }
-    return triangles;
-}
-
-/// @param off_line  a point that makes a triangle with the first and the last. These three come first: along
-/// a
-///                  straight line alone CGAL searches from end to end for each point.
-Result<std::vector<Triangle>> triangulate(const std::vector<Eigen::Vector3d>& points_m, std::size_t off_line,
-                                          Progress& progress, std::stop_token stop) {
-    Triangulation triangulation;
-    Triangulation::Face_handle near;
-    const auto insert = [&](std::size_t i) {
-        const Triangulation::Vertex_handle vertex = triangulation.insert(plan(points_m[i]), near);
-        vertex->info() = static_cast<std::uint32_t>(i);
-        near = vertex->face();
-    };
-    insert(0);
-    insert(points_m.size() - 1);
-    insert(off_line);
-    std::size_t done = 0;
-    for (const std::uint32_t i : insertionOrder(points_m.size())) {
-        if (++done % kInsertionsBetweenReports == 0) {
-            if (stop.stop_requested()) {
-                return cancelled();
-            }
-            progress.report(static_cast<double>(done) / static_cast<double>(points_m.size()),
-                            "triangulating");
-        }
-        insert(i);
-    }
-    return trianglesOf(triangulation);
-}
-
-/// In rising order: the same list however CGAL stores its faces.
+/// Each from its lowest index on, in rising order.
 std::vector<Triangle> inRisingOrder(const std::vector<Triangle>& triangles, std::size_t vertex_count) {
     std::vector<std::uint32_t> ends(vertex_count, 0);  // at first the begins, then moved on
-    for (const Triangle& triangle : triangles) ++ends[triangle[0]];
+    for (const Triangle& triangle : triangles) ++ends[std::min({triangle[0], triangle[1], triangle[2]})];
     std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), std::uint32_t{0});
     std::vector<Triangle> ordered(triangles.size());
-    for (const Triangle& triangle : triangles) ordered[ends[triangle[0]]++] = triangle;
+    for (const Triangle& triangle : triangles) {
+        const Triangle turned = fromLowest(triangle);
+        ordered[ends[turned[0]]++] = turned;
+    }
     std::uint32_t begin = 0;
     for (const std::uint32_t end : ends) {
         std::sort(ordered.data() + begin, ordered.data() + end);
@@ -209,7 +147,7 @@ Result<TriangleMesh> delaunayMesh(const std::vector<Eigen::Vector3d>& points_m, 
         return badData(fmt::format("all {} ground points lie on one straight line", mesh.vertices_m.size()),
                        {}, 0, kCure);
     }
-    const auto triangles = triangulate(mesh.vertices_m, *off_line, progress, stop);
+    const auto triangles = delaunayTriangles(mesh.vertices_m, *off_line, progress, stop);
     if (!triangles) {
         return tl::unexpected(triangles.error());
     }
