@@ -86,5 +86,7 @@ struct DemDescription {
 [[nodiscard]] Result<void> writeReportJson(const SurveyReport& report, const std::filesystem::path& file);
 /// One self-contained page, plots as SVG, readable without a network, in light and dark, and on paper.
 [[nodiscard]] Result<void> writeReportHtml(const SurveyReport& report, const std::filesystem::path& file);
+/// The same page on paper (PDF), for who signs it.
+[[nodiscard]] Result<void> writeReportPdf(const SurveyReport& report, const std::filesystem::path& file);
 
 }  // namespace terrawalk
