@@ -244,6 +244,7 @@ std::string intervalCell(const std::optional<ConfidenceInterval>& interval) {
 struct MeasureTable {
     std::vector<Heading> headings;  ///< of the measures
     std::string (*cells)(const ErrorStatistics&);
+    std::string_view anchor_ending;  ///< of its rows' names
 };
 
 const MeasureTable kUsualMeasures{
@@ -258,7 +259,8 @@ const MeasureTable kUsualMeasures{
     [](const ErrorStatistics& s) {
         return number(s.n) + number(s.marks) + metresCell(s.mean_m) + metresCell(s.sd_m.value_or(kMissing)) +
                metresCell(s.rmse_m) + intervalCell(s.rmse_95) + metresCell(s.mae_m) + metresCell(s.largest_m);
-    }};
+    },
+    ""};
 
 const MeasureTable kRobustMeasures{{{"Median", true},
                                     {"95 % interval", true},
@@ -272,7 +274,8 @@ const MeasureTable kRobustMeasures{{{"Median", true},
                                               metresCell(s.nmad_m) + intervalCell(s.nmad_95) +
                                               metresCell(s.error68_m) + metresCell(s.error95_m) +
                                               intervalCell(s.error95_95);
-                                   }};
+                                   },
+                                   "-robust"};
 
 std::vector<Heading> withMeasures(std::vector<Heading> headings, const MeasureTable& measures) {
     headings.insert(headings.end(), measures.headings.begin(), measures.headings.end());
@@ -296,10 +299,8 @@ std::string groupRows(const AccuracyGroup& group, const MeasureTable& measures) 
                 "<th scope=\"rowgroup\" rowspan=\"{}\">{}<br/><span class=\"note\">{}</span></th>", rows,
                 capitalised(name(group.stage)), name(group.quantity));
         }
-        const std::string anchor =
-            &measures == &kUsualMeasures ? fmt::format(" id=\"{}\"", anchorOf(group, axis)) : "";
-        out += fmt::format("<tr{}>{}{}{}</tr>\n", anchor, cells, cell(Cell::Short, axis),
-                           measures.cells(**statistics));
+        out += fmt::format("<tr id=\"{}{}\">{}{}{}</tr>\n", anchorOf(group, axis), measures.anchor_ending,
+                           cells, cell(Cell::Short, axis), measures.cells(**statistics));
     }
     return "<tbody class=\"group\">\n" + out + "</tbody>\n";
 }

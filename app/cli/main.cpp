@@ -66,6 +66,7 @@ struct ProcessArguments {
     std::vector<std::string> settings;
     std::optional<std::string> method;
     std::optional<std::uint64_t> seed;
+    bool multiband = false;
     bool tune = false;
     TuneOptions tuning;
 };
@@ -140,6 +141,7 @@ void addConfiguration(CLI::App& command, ProcessArguments& arguments,
                         listed(kFusionMethodNames, [](const auto& pair) { return pair.second; }))
         ->option_text(fmt::format("NAME [{}]", name(method)));
     command.add_option("--seed", arguments.seed, "Short for --set seed=...");
+    command.add_flag("--multiband", arguments.multiband, "Short for --set surface.multiband=true");
 }
 
 // The file first, then single settings, so that the command line has the last word.
@@ -152,6 +154,7 @@ Result<PipelineConfig> configuration(const ProcessArguments& arguments) {
     std::vector<std::string> settings = arguments.settings;
     if (arguments.method) settings.push_back("fusion.method=" + *arguments.method);
     if (arguments.seed) settings.push_back(fmt::format("seed={}", *arguments.seed));
+    if (arguments.multiband) settings.emplace_back("surface.multiband=true");
     for (const std::string& setting : settings) {
         if (auto done = applySetting(config, setting); !done) return tl::unexpected(done.error());
     }
@@ -169,6 +172,7 @@ Provenance provenanceOf(const std::string& command, const ProcessArguments& argu
     for (const std::string& setting : arguments.settings) add("--set", setting);
     if (arguments.method) add("--method", *arguments.method);
     if (arguments.seed) add("--seed", std::to_string(*arguments.seed));
+    if (arguments.multiband) provenance.command.emplace_back("--multiband");
     if (arguments.tune) {
         provenance.command.emplace_back("--tune");
         const std::vector<std::string> options = tuneArguments(arguments.tuning);

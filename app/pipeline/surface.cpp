@@ -14,6 +14,7 @@
 #include "io/output_folder.hpp"
 #include "io/read_breaklines.hpp"
 #include "io/read_points.hpp"
+#include "io/write_exchange.hpp"
 #include "io/write_products.hpp"
 #include "mapping/gridding.hpp"
 #include "mapping/point_cleaning.hpp"
@@ -38,6 +39,18 @@ fs::path edgesFile(const SurfaceRequest& request) {
     return beside(request.output, "_terrace_edges.gpkg");
 }
 
+fs::path multibandFile(const SurfaceRequest& request) {
+    return beside(request.output, "_multiband.tif");
+}
+
+fs::path pointsFile(const SurfaceRequest& request) {
+    return beside(request.output, "_points.csv");
+}
+
+fs::path styleFile(const SurfaceRequest& request) {
+    return beside(request.output, ".qml");
+}
+
 fs::path reportFile(const SurfaceRequest& request) {
     return beside(request.output, ".json");
 }
@@ -45,7 +58,8 @@ fs::path reportFile(const SurfaceRequest& request) {
 Result<void> checkRequest(const SurfaceRequest& request) {
     for (const fs::path& input : {request.points, request.breaklines}) {
         for (const fs::path& output :
-             {request.output, uncertaintyFile(request), edgesFile(request), reportFile(request)}) {
+             {request.output, uncertaintyFile(request), multibandFile(request), edgesFile(request),
+              pointsFile(request), styleFile(request), reportFile(request)}) {
             std::error_code error;
             if (!fs::equivalent(input, output, error)) continue;
             return usageError(fmt::format("the output would replace {}", input.string()),
@@ -119,6 +133,10 @@ Result<void> cleanInput(const SurfaceRequest& request, double metres_per_unit, S
     if (!cleaned) return tl::unexpected(cleaned.error());
     points = thinGroundPoints(std::move(*cleaned), request.thinning_cell_m);
     report.points_left_out = leftOutByReason(points);
+    report.cleaned = MapPoints{{}, {}, report.crs.unit.symbol};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        report.cleaned->points.push_back({input.points_m[i], kMissing, 0.0, 0, points[i].state});
+    }
     SurfaceInput kept{{}, {}, std::move(input.breaklines)};
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (points[i].state != GroundPointState::Used) continue;
@@ -185,7 +203,23 @@ Result<void> writeFiles(InterpolatedGrid grid, const std::vector<TerraceEdge>& e
     report.files = {request.output};
     std::optional<ElevationGrid> errors;
     if (!grid.variances_m2.empty()) errors = standardErrors(grid);
+    if (request.multiband && errors) {
+        report.files.push_back(multibandFile(request));
+        if (auto done = writeDemWithUncertainty(grid.heights, errors->heights_m, description,
+                                                report.files.back(), stop);
+            !done) {
+            return done;
+        }
+    } else {
+        const std::string why = request.multiband
+                                    ? fmt::format("method {} gives no uncertainty", name(report.method))
+                                    : "it was not asked for";
+        if (request.multiband) report.notes.push_back("no multiband file: " + why + "; kriging does");
+        noteLeftOver(multibandFile(request), why, report.notes);
+    }
     if (auto done = writeDem(std::move(grid.heights), description, request.output, stop); !done) return done;
+    if (auto done = writeHillshadeStyle(styleFile(request)); !done) return done;
+    report.files.push_back(styleFile(request));
     if (!errors) {
         noteLeftOver(uncertaintyFile(request),
                      fmt::format("method {} gives no uncertainty", name(report.method)), report.notes);
@@ -195,6 +229,12 @@ Result<void> writeFiles(InterpolatedGrid grid, const std::vector<TerraceEdge>& e
         report.files.push_back(uncertaintyFile(request));
         if (auto done = writeDem(std::move(*errors), description, report.files.back(), stop); !done)
             return done;
+    }
+    if (report.cleaned) {
+        report.files.push_back(pointsFile(request));
+        if (auto done = writePointsCsv(*report.cleaned, report.files.back(), stop); !done) return done;
+    } else {
+        noteLeftOver(pointsFile(request), "no point was left out", report.notes);
     }
     if (edges.empty()) {
         noteLeftOver(edgesFile(request), "it keeps to no terrace edges", report.notes);
