@@ -16,7 +16,7 @@ constexpr const char* kHeaderCure =
 
 class PointTableParser {
   public:
-    explicit PointTableParser(const std::filesystem::path& file) : file_(file) {}
+    PointTableParser(const std::filesystem::path& file, std::size_t bytes) : file_(file), bytes_(bytes) {}
 
     [[nodiscard]] std::size_t nextLine() const { return line_ + 1; }
 
@@ -29,6 +29,7 @@ class PointTableParser {
             if (line.empty() || line.front() == '#') continue;
             if (auto taken = takeLine(line); !taken) return taken;
         }
+        if (!std::exchange(room_made_, true)) reserveAsIn(block);
         return {};
     }
 
@@ -40,6 +41,16 @@ class PointTableParser {
   private:
     tl::unexpected<Error> bad(std::string message, std::string cure = {}) const {
         return badData(std::move(message), file_, line_, std::move(cure));
+    }
+
+    /// Room for as many points as the file has when all of it is like the first block.
+    void reserveAsIn(const LineBlock& block) {
+        if (block.begin == block.end) return;
+        const double blocks = static_cast<double>(bytes_) / static_cast<double>(block.end - block.begin);
+        const auto expected =
+            static_cast<std::size_t>(1.01 * blocks * static_cast<double>(points_.points.size()));
+        points_.points.reserve(expected);
+        if (place_[3]) points_.sigmas.reserve(expected);
     }
 
     Result<void> takeLine(std::string_view line) {
@@ -118,6 +129,8 @@ class PointTableParser {
     }
 
     std::filesystem::path file_;
+    std::size_t bytes_;
+    bool room_made_ = false;
     ScatteredPoints points_;
     std::array<std::optional<std::size_t>, 4> place_{};  ///< by PointColumn
     std::vector<std::string_view> fields_;
@@ -137,7 +150,7 @@ Result<ScatteredPoints> readPointTable(const std::filesystem::path& file, Progre
     const auto source = [&input](char* buffer, std::size_t capacity) {
         return input->read(buffer, capacity);
     };
-    PointTableParser parser(file);
+    PointTableParser parser(file, input->size());
     return parseLines(source, file, input->size(), parser, progress, stop);
 }
 

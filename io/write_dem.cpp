@@ -23,7 +23,7 @@ namespace terrawalk {
 namespace {
 
 constexpr float kNoData = -9999.0F;
-constexpr int kRowsAtOnce = 512;
+constexpr std::size_t kTileSide = 512;
 
 /// Only what writing needs: registering all drivers takes a fifth of a second.
 void registerDrivers() {
@@ -50,6 +50,27 @@ std::array<double, 6> geotransform(const GridGeometry& geometry) {
 struct Band {
     std::string quantity;
     std::vector<float> cells;  ///< as they stand in the file
+    std::size_t known = 0;     ///< cells with a value; the rest is about these
+    double least = 0.0, greatest = 0.0, mean = 0.0, sd = 0.0;
+};
+
+/// GDAL keeps what it writes in memory, a twentieth of the machine's, until the file is closed. This much
+/// holds the tiles of a few rows and is enough; the earlier limit comes back at the end.
+class SmallBlockCache {
+  public:
+    explicit SmallBlockCache(const GridGeometry& geometry) : before_(GDALGetCacheMax64()) {
+        constexpr GIntBig kLeast = GIntBig{32} << 20U;
+        constexpr std::size_t kRowsOfTiles = 4;
+        const auto tiles =
+            static_cast<GIntBig>(kRowsOfTiles * kTileSide * (geometry.columns + kTileSide) * sizeof(float));
+        GDALSetCacheMax64(std::min(before_, std::max(kLeast, tiles)));
+    }
+    SmallBlockCache(const SmallBlockCache&) = delete;
+    SmallBlockCache& operator=(const SmallBlockCache&) = delete;
+    ~SmallBlockCache() { GDALSetCacheMax64(before_); }
+
+  private:
+    GIntBig before_;
 };
 
 Result<void> checkGrid(const ElevationGrid& grid, const std::filesystem::path& file) {
@@ -67,26 +88,36 @@ Result<void> checkGrid(const ElevationGrid& grid, const std::filesystem::path& f
     return {};
 }
 
-/// Heights as they stand in the file.
-Result<std::vector<float>> cellsOf(const ElevationGrid& grid, const std::filesystem::path& file) {
-    std::vector<float> cells(grid.heights_m.size());
-    std::size_t known = 0;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        const float height_m = grid.heights_m[i];
-        if (std::isnan(height_m)) {
-            cells[i] = kNoData;
-        } else if (std::isinf(height_m) || height_m == kNoData) {
-            return badData(fmt::format("the DEM cannot hold the height {} m", height_m), file);
-        } else {
-            cells[i] = height_m;
-            ++known;
+/// Heights as they stand in the file, with their statistics.
+Result<Band> bandOf(std::string quantity, std::vector<float> heights_m, const std::filesystem::path& file) {
+    Band band{std::move(quantity), std::move(heights_m)};
+    double base = 0.0, sum = 0.0, squares = 0.0;  // of differences from the first height
+    band.least = std::numeric_limits<double>::infinity();
+    band.greatest = -band.least;
+    for (float& cell : band.cells) {
+        if (std::isnan(cell)) {
+            cell = kNoData;
+            continue;
         }
+        if (std::isinf(cell) || cell == kNoData) {
+            return badData(fmt::format("the DEM cannot hold the height {} m", cell), file);
+        }
+        const double height = cell;
+        if (band.known++ == 0) base = height;
+        band.least = std::min(band.least, height);
+        band.greatest = std::max(band.greatest, height);
+        sum += height - base;
+        squares += (height - base) * (height - base);
     }
-    if (known == 0) {
+    if (band.known == 0) {
         return badData("no cell of the DEM has a height", file, 0,
                        "walk closer lines or choose larger cells");
     }
-    return cells;
+    const double mean_difference = sum / static_cast<double>(band.known);
+    band.mean = base + mean_difference;
+    band.sd = std::sqrt(
+        std::max(0.0, squares / static_cast<double>(band.known) - mean_difference * mean_difference));
+    return band;
 }
 
 bool addBand(GDALDataset& dataset, Band& band, const std::string& unit) {
@@ -95,15 +126,30 @@ bool addBand(GDALDataset& dataset, Band& band, const std::string& unit) {
     if (dataset.AddBand(GDT_Float32, memory.List()) != CE_None) return false;
     GDALRasterBand* const raster = dataset.GetRasterBand(dataset.GetRasterCount());
     raster->SetDescription(fmt::format("{} ({})", band.quantity, unit).c_str());
-    std::array<double, 4> statistics{};
+    const double percent = 100.0 * static_cast<double>(band.known) / static_cast<double>(band.cells.size());
     return raster->SetUnitType(unit.c_str()) == CE_None &&
            raster->SetNoDataValue(double{kNoData}) == CE_None &&
-           raster->ComputeStatistics(FALSE, &statistics[0], &statistics[1], &statistics[2], &statistics[3],
-                                     nullptr, nullptr) == CE_None;
+           raster->SetStatistics(band.least, band.greatest, band.mean, band.sd) == CE_None &&
+           raster->SetMetadataItem("STATISTICS_VALID_PERCENT", fmt::format("{:.4g}", percent).c_str()) ==
+               CE_None;
+}
+
+/// Smaller rasters in memory, each with half the columns and rows, down to one tile. COG's own way would
+/// write them to a temporary file first.
+bool addOverviews(GDALDataset& dataset, bool classes, std::stop_token& stop) {
+    std::vector<int> factors;
+    const int longest = std::max(dataset.GetRasterXSize(), dataset.GetRasterYSize());
+    for (int factor = 2; longest > static_cast<int>(kTileSide) * factor / 2; factor *= 2) {
+        factors.push_back(factor);
+    }
+    // Cubic would ring at terrace edges.
+    return factors.empty() ||
+           dataset.BuildOverviews(classes ? "MODE" : "AVERAGE", static_cast<int>(factors.size()),
+                                  factors.data(), 0, nullptr, &continueUnlessStopped, &stop) == CE_None;
 }
 
 /// A dataset over the cells of the bands, which must outlive it, with everything that the file is to say.
-Result<GdalDataset> describe(const ElevationGrid& grid, std::vector<Band>& bands,
+Result<GdalDataset> describe(const GridGeometry& geometry, std::vector<Band>& bands,
                              const DemDescription& description, const GdalErrors& errors,
                              const std::filesystem::path& file) {
     OGRSpatialReference crs;
@@ -112,10 +158,9 @@ Result<GdalDataset> describe(const ElevationGrid& grid, std::vector<Band>& bands
         return badData("GDAL does not understand the CRS of the DEM: " + errors.text(), file);
     }
     GdalDataset dataset(GetGDALDriverManager()->GetDriverByName("MEM")->Create(
-        "", static_cast<int>(grid.geometry.columns), static_cast<int>(grid.geometry.rows), 0, GDT_Float32,
-        nullptr));
+        "", static_cast<int>(geometry.columns), static_cast<int>(geometry.rows), 0, GDT_Float32, nullptr));
     if (!dataset) return systemError("cannot make the DEM: " + errors.text(), file);
-    auto transform = geotransform(grid.geometry);
+    auto transform = geotransform(geometry);
     bool ok =
         dataset->SetSpatialRef(&crs) == CE_None && dataset->SetGeoTransform(transform.data()) == CE_None;
     const auto setItem = [&](const std::string& key, const std::string& value) {
@@ -131,16 +176,14 @@ Result<GdalDataset> describe(const ElevationGrid& grid, std::vector<Band>& bands
     return dataset;
 }
 
-Result<void> writeCog(GDALDataset& source, bool classes, const GdalErrors& errors, std::stop_token stop,
+Result<void> writeCog(GDALDataset& source, const GdalErrors& errors, std::stop_token stop,
                       const std::filesystem::path& to, const std::filesystem::path& file) {
     CPLStringList options;
     options.SetNameValue("COMPRESS", "DEFLATE");
     options.SetNameValue("PREDICTOR", "YES");
-    options.SetNameValue("LEVEL", "6");  // 9 takes three times as long for a file smaller by a hundredth
-    options.SetNameValue("BLOCKSIZE", "512");
-    options.SetNameValue("OVERVIEWS", "IGNORE_EXISTING");
-    // Cubic would ring at terrace edges.
-    options.SetNameValue("OVERVIEW_RESAMPLING", classes ? "MODE" : "AVERAGE");
+    options.SetNameValue("LEVEL", "1");  // 6 takes twice as long for a file smaller by a fifteenth
+    options.SetNameValue("BLOCKSIZE", std::to_string(kTileSide).c_str());
+    options.SetNameValue("OVERVIEWS", "AUTO");  // those of the source
     options.SetNameValue("NUM_THREADS", std::to_string(threadCount()).c_str());
     options.SetNameValue("BIGTIFF", "IF_SAFER");
     GdalDataset written(GetGDALDriverManager()->GetDriverByName("COG")->CreateCopy(
@@ -163,27 +206,37 @@ bool sameCrs(const GDALDataset& one, const GDALDataset& other) {
     return a->IsSame(b, options.data()) != 0;
 }
 
-bool sameCells(GDALDataset& dataset, int band, const std::vector<float>& cells, std::stop_token stop) {
-    const int columns = dataset.GetRasterXSize();
-    const int rows = dataset.GetRasterYSize();
-    std::vector<float> block(static_cast<std::size_t>(columns) *
-                             static_cast<std::size_t>(std::min(rows, kRowsAtOnce)));
-    auto expected = cells.begin();
-    for (int row = 0; row < rows && !stop.stop_requested(); row += kRowsAtOnce) {
-        const int count = std::min(kRowsAtOnce, rows - row);
-        if (dataset.GetRasterBand(band)->RasterIO(GF_Read, 0, row, columns, count, block.data(), columns,
-                                                  count, GDT_Float32, 0, 0, nullptr) != CE_None) {
-            return false;
+/// Tile by tile, past GDAL's cache.
+bool sameCells(GDALDataset& dataset, int band, const std::vector<float>& cells, const std::stop_token& stop) {
+    const auto columns = static_cast<std::size_t>(dataset.GetRasterXSize());
+    const auto rows = static_cast<std::size_t>(dataset.GetRasterYSize());
+    GDALRasterBand& raster = *dataset.GetRasterBand(band);
+    int width = 0, height = 0;
+    raster.GetBlockSize(&width, &height);
+    if (raster.GetRasterDataType() != GDT_Float32 || width <= 0 || height <= 0) return false;
+    const auto tile_columns = static_cast<std::size_t>(width), tile_rows = static_cast<std::size_t>(height);
+    std::vector<float> tile(tile_columns * tile_rows);
+    for (std::size_t top = 0; top < rows; top += tile_rows) {
+        for (std::size_t left = 0; left < columns; left += tile_columns) {
+            if (stop.stop_requested()) return true;  // who asks looks at the token next
+            if (raster.ReadBlock(static_cast<int>(left / tile_columns), static_cast<int>(top / tile_rows),
+                                 tile.data()) != CE_None) {
+                return false;
+            }
+            const auto used = static_cast<std::ptrdiff_t>(std::min(tile_columns, columns - left));
+            for (std::size_t row = 0; row < std::min(tile_rows, rows - top); ++row) {
+                const auto got = tile.begin() + static_cast<std::ptrdiff_t>(row * tile_columns);
+                const auto expected =
+                    cells.begin() + static_cast<std::ptrdiff_t>((top + row) * columns + left);
+                if (!std::equal(got, got + used, expected)) return false;
+            }
         }
-        const auto size = static_cast<std::ptrdiff_t>(columns) * count;
-        if (!std::equal(expected, expected + size, block.begin())) return false;
-        expected += size;
     }
     return true;
 }
 
 /// Reads the file again: a DEM that lies beside its place is worse than none.
-Result<void> verify(const GDALDataset& source, const ElevationGrid& grid, const std::vector<Band>& bands,
+Result<void> verify(const GDALDataset& source, const GridGeometry& geometry, const std::vector<Band>& bands,
                     std::stop_token stop, const std::filesystem::path& written,
                     const std::filesystem::path& file) {
     const GdalErrors errors;
@@ -198,12 +251,12 @@ Result<void> verify(const GDALDataset& source, const ElevationGrid& grid, const 
     if (!dataset || dataset->GetRasterCount() != static_cast<int>(bands.size())) {
         return refused("no raster");
     }
-    if (dataset->GetRasterXSize() != static_cast<int>(grid.geometry.columns) ||
-        dataset->GetRasterYSize() != static_cast<int>(grid.geometry.rows)) {
+    if (dataset->GetRasterXSize() != static_cast<int>(geometry.columns) ||
+        dataset->GetRasterYSize() != static_cast<int>(geometry.rows)) {
         return refused("another size");
     }
     std::array<double, 6> transform{};
-    if (dataset->GetGeoTransform(transform.data()) != CE_None || transform != geotransform(grid.geometry)) {
+    if (dataset->GetGeoTransform(transform.data()) != CE_None || transform != geotransform(geometry)) {
         return refused("another place");
     }
     int has_no_data = FALSE;
@@ -234,50 +287,56 @@ Result<void> removeSideFiles(const std::filesystem::path& file) {
     return {};
 }
 
-Result<void> writeBands(const ElevationGrid& grid, std::vector<Band> bands, const DemDescription& description,
-                        const std::filesystem::path& file, std::stop_token stop) {
+Result<void> writeBands(const GridGeometry& geometry, std::vector<Band> bands,
+                        const DemDescription& description, const std::filesystem::path& file,
+                        std::stop_token stop) {
     auto out = ReplacingFile::create(file);
     if (!out) return tl::unexpected(out.error());
     registerDrivers();
     const GdalErrors errors;
+    const SmallBlockCache cache(geometry);
     const CPLConfigOptionSetter no_side_files("GDAL_PAM_ENABLED", "NO", false);
-    const auto source = describe(grid, bands, description, errors, file);
+    const auto source = describe(geometry, bands, description, errors, file);
     if (!source) return tl::unexpected(source.error());
-    if (auto written = writeCog(**source, description.classes, errors, stop, out->temporary(), file);
-        !written) {
+    if (!addOverviews(**source, description.classes, stop)) {
+        if (stop.stop_requested()) return cancelled();
+        return systemError("cannot make the DEM's overviews: " + errors.text(), file);
+    }
+    if (auto written = writeCog(**source, errors, stop, out->temporary(), file); !written) {
         return written;
     }
-    if (auto read = verify(**source, grid, bands, stop, out->temporary(), file); !read) return read;
+    if (auto read = verify(**source, geometry, bands, stop, out->temporary(), file); !read) return read;
     if (auto removed = removeSideFiles(file); !removed) return removed;
     return out->commit();
 }
 
 }  // namespace
 
-Result<void> writeDem(const ElevationGrid& grid, const DemDescription& description,
+Result<void> writeDem(ElevationGrid grid, const DemDescription& description,
                       const std::filesystem::path& file, std::stop_token stop) {
     if (auto checked = checkGrid(grid, file); !checked) return checked;
-    auto cells = cellsOf(grid, file);
-    if (!cells) return tl::unexpected(cells.error());
+    auto band = bandOf(description.quantity, std::move(grid.heights_m), file);
+    if (!band) return tl::unexpected(band.error());
     std::vector<Band> bands;
-    bands.push_back({description.quantity, std::move(*cells)});
-    return writeBands(grid, std::move(bands), description, file, std::move(stop));
+    bands.push_back(std::move(*band));
+    return writeBands(grid.geometry, std::move(bands), description, file, std::move(stop));
 }
 
-Result<void> writeDemWithUncertainty(const ElevationGrid& grid, const std::vector<float>& sigmas,
+Result<void> writeDemWithUncertainty(ElevationGrid grid, std::vector<float> sigmas,
                                      const DemDescription& description, const std::filesystem::path& file,
                                      std::stop_token stop) {
-    if (auto checked = checkGrid(grid, file); !checked) return checked;
-    const ElevationGrid uncertainty{grid.geometry, sigmas};
-    if (auto checked = checkGrid(uncertainty, file); !checked) return checked;
-    auto heights = cellsOf(grid, file);
-    if (!heights) return tl::unexpected(heights.error());
-    auto errors = cellsOf(uncertainty, file);
-    if (!errors) return tl::unexpected(errors.error());
     std::vector<Band> bands;
-    bands.push_back({description.quantity, std::move(*heights)});
-    bands.push_back({"Uncertainty, 1 sigma", std::move(*errors)});
-    return writeBands(grid, std::move(bands), description, file, std::move(stop));
+    std::vector<std::pair<std::string, std::vector<float>>> values;
+    values.emplace_back(description.quantity, std::move(grid.heights_m));
+    values.emplace_back("Uncertainty, 1 sigma", std::move(sigmas));
+    for (auto& [quantity, cells] : values) {
+        grid.heights_m = std::move(cells);
+        if (auto checked = checkGrid(grid, file); !checked) return checked;
+        auto band = bandOf(quantity, std::move(grid.heights_m), file);
+        if (!band) return tl::unexpected(band.error());
+        bands.push_back(std::move(*band));
+    }
+    return writeBands(grid.geometry, std::move(bands), description, file, std::move(stop));
 }
 
 }  // namespace terrawalk

@@ -47,7 +47,8 @@ struct MapPoint {
 };
 struct MapPoints {
     std::vector<MapPoint> points;      ///< finite places
-    std::vector<std::string> run_ids;  ///< that MapPoint::run counts
+    std::vector<std::string> run_ids;  ///< that MapPoint::run counts; empty: the points come from no walk
+    std::string unit = "m";            ///< of places: m, ft or US-ft
 };
 
 /// LAS 1.4, point format 6, steps of 0.1 mm, the CRS as WKT. Used points are class 2 (ground), others class 1
@@ -61,7 +62,8 @@ struct MapPoints {
 /// Binary PCD 0.7 with the same fields; the origin stands in a comment, because PCL reads doubles as zeros.
 [[nodiscard]] Result<void> writePcd(const MapPoints& points, const ExchangeDescription& description,
                                     const std::filesystem::path& file, std::stop_token stop = {});
-/// x_m,y_m,z_m,sigma_z_m,run,time_s,used,reason; 0.1 mm.
+/// x_m,y_m,z_m,sigma_z_m,run,time_s,used,reason; 0.1 mm. Without run_ids the points come from no walk: x, y,
+/// z, used and reason alone, with the ending of `unit` (_m, _ft or _usft).
 [[nodiscard]] Result<void> writePointsCsv(const MapPoints& points, const std::filesystem::path& file,
                                           std::stop_token stop = {});
 /// GeoPackage, layer ground_points of 3D points with the columns of the CSV table.

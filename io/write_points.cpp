@@ -17,11 +17,11 @@ namespace {
 
 constexpr std::size_t kPointsBetweenStops = 16384;
 
-Result<void> checkPoints(const MapPoints& points, const std::filesystem::path& file) {
+Result<void> checkPoints(const MapPoints& points, const std::filesystem::path& file, bool walked = true) {
     if (points.points.empty()) return badData("there is no ground point to write", file);
     for (const MapPoint& point : points.points) {
         if (!point.map_m.allFinite()) return badData("a ground point has no place", file);
-        if (point.run >= points.run_ids.size()) {
+        if (walked && point.run >= points.run_ids.size()) {
             return badData(fmt::format("a ground point names run {} of {}", point.run, points.run_ids.size()),
                            file);
         }
@@ -241,16 +241,27 @@ Result<void> writePcd(const MapPoints& points, const ExchangeDescription& descri
 
 Result<void> writePointsCsv(const MapPoints& points, const std::filesystem::path& file,
                             std::stop_token stop) {
-    if (auto checked = checkPoints(points, file); !checked) return checked;
+    if (auto checked = checkPoints(points, file, !points.run_ids.empty()); !checked) return checked;
+    const auto place = [](const MapPoint& point) {
+        return fmt::format(FMT_COMPILE("{:.4f},{:.4f},{:.4f},"), point.map_m.x(), point.map_m.y(),
+                           point.map_m.z());
+    };
+    const auto use = [](const MapPoint& point) {
+        return fmt::format("{},{}\n", isUsed(point) ? 1 : 0, isUsed(point) ? "" : name(point.state));
+    };
+    if (points.run_ids.empty()) {
+        const std::string unit = points.unit == "US-ft" ? "usft" : points.unit;
+        return writeEach(
+            points, fmt::format("x_{0},y_{0},z_{0},used,reason\n", unit), file, stop,
+            [&](const MapPoint& point, std::string& record) { record += place(point) + use(point); });
+    }
     std::vector<std::string> runs;
     for (const std::string& id : points.run_ids) runs.push_back(csvField(id));
     return writeEach(points, "x_m,y_m,z_m,sigma_z_m,run,time_s,used,reason\n", file, stop,
                      [&](const MapPoint& point, std::string& record) {
-                         fmt::format_to(std::back_inserter(record), FMT_COMPILE("{:.4f},{:.4f},{:.4f},"),
-                                        point.map_m.x(), point.map_m.y(), point.map_m.z());
+                         record += place(point);
                          if (std::isfinite(point.sigma_u_m)) record += fmt::format("{:.4f}", point.sigma_u_m);
-                         record += fmt::format(",{},{:.3f},{},{}\n", runs[point.run], point.time_s,
-                                               isUsed(point) ? 1 : 0, isUsed(point) ? "" : name(point.state));
+                         record += fmt::format(",{},{:.3f},", runs[point.run], point.time_s) + use(point);
                      });
 }
 

@@ -32,15 +32,15 @@ struct DemDescription {
 
 /// Writes a Cloud-Optimized GeoTIFF: Float32, nodata -9999, statistics, averaged overviews,
 /// everything inside the file; side files of an earlier raster of that name are removed. The same grid gives
-/// the same bytes. The file is read again before it takes its place. Errors: BadData for a grid without any
+/// the same bytes. The file is read again before it takes its place. A grid that is moved in is not copied.
+/// Errors: BadData for a grid without any
 /// height or with one that the file cannot hold, and for a CRS that GDAL does not know; System; Cancelled.
-[[nodiscard]] Result<void> writeDem(const ElevationGrid& grid, const DemDescription& description,
+[[nodiscard]] Result<void> writeDem(ElevationGrid grid, const DemDescription& description,
                                     const std::filesystem::path& file, std::stop_token stop = {});
 /// The same with a second band, the standard error of each height in the unit of the heights: elevation and
 /// uncertainty in the order of the Bathymetry Attributed Grid (BAG).
 /// @param sigmas  in the order of the cells; NaN where there is no height
-[[nodiscard]] Result<void> writeDemWithUncertainty(const ElevationGrid& grid,
-                                                   const std::vector<float>& sigmas,
+[[nodiscard]] Result<void> writeDemWithUncertainty(ElevationGrid grid, std::vector<float> sigmas,
                                                    const DemDescription& description,
                                                    const std::filesystem::path& file,
                                                    std::stop_token stop = {});
@@ -86,5 +86,7 @@ struct DemDescription {
 [[nodiscard]] Result<void> writeReportJson(const SurveyReport& report, const std::filesystem::path& file);
 /// One self-contained page, plots as SVG, readable without a network, in light and dark, and on paper.
 [[nodiscard]] Result<void> writeReportHtml(const SurveyReport& report, const std::filesystem::path& file);
+/// The same page on paper (PDF), for who signs it.
+[[nodiscard]] Result<void> writeReportPdf(const SurveyReport& report, const std::filesystem::path& file);
 
 }  // namespace terrawalk

@@ -234,17 +234,55 @@ std::string anchorOf(const AccuracyGroup& group, std::string_view axis) {
     return id;
 }
 
-std::string statisticsCells(const ErrorStatistics& s) {
-    std::string interval = "\u2013";
-    if (s.rmse_95) {
-        interval = fmt::format("{} \u2026 {}", metres3(s.rmse_95->low_m), metres3(s.rmse_95->high_m));
-    }
-    return number(s.n) + number(s.marks) + metresCell(s.mean_m) + metresCell(s.sd_m.value_or(kMissing)) +
-           metresCell(s.rmse_m) + cell(Cell::Number, interval) + metresCell(s.mae_m) +
-           metresCell(s.median_m) + metresCell(s.nmad_m) + metresCell(s.largest_m);
+std::string intervalCell(const std::optional<ConfidenceInterval>& interval) {
+    if (!interval) return cell(Cell::Number, "\u2013");
+    return cell(Cell::Number,
+                fmt::format("{} \u2026 {}", metres3(interval->low_m), metres3(interval->high_m)));
 }
 
-std::string groupRows(const AccuracyGroup& group) {
+/// One table of error measures.
+struct MeasureTable {
+    std::vector<Heading> headings;  ///< of the measures
+    std::string (*cells)(const ErrorStatistics&);
+    std::string_view anchor_ending;  ///< of its rows' names
+};
+
+const MeasureTable kUsualMeasures{
+    {{"n", true},
+     {"Marks", true},
+     {"Mean", true},
+     {"SD", true},
+     {"RMSE", true},
+     {"95 % interval of RMSE", true},
+     {"MAE", true},
+     {"Largest", true}},
+    [](const ErrorStatistics& s) {
+        return number(s.n) + number(s.marks) + metresCell(s.mean_m) + metresCell(s.sd_m.value_or(kMissing)) +
+               metresCell(s.rmse_m) + intervalCell(s.rmse_95) + metresCell(s.mae_m) + metresCell(s.largest_m);
+    },
+    ""};
+
+const MeasureTable kRobustMeasures{{{"Median", true},
+                                    {"95 % interval", true},
+                                    {"NMAD", true},
+                                    {"95 % interval", true},
+                                    {"68.3 % of |d| below", true},
+                                    {"95 % of |d| below", true},
+                                    {"95 % interval", true}},
+                                   [](const ErrorStatistics& s) {
+                                       return metresCell(s.median_m) + intervalCell(s.median_95) +
+                                              metresCell(s.nmad_m) + intervalCell(s.nmad_95) +
+                                              metresCell(s.error68_m) + metresCell(s.error95_m) +
+                                              intervalCell(s.error95_95);
+                                   },
+                                   "-robust"};
+
+std::vector<Heading> withMeasures(std::vector<Heading> headings, const MeasureTable& measures) {
+    headings.insert(headings.end(), measures.headings.begin(), measures.headings.end());
+    return headings;
+}
+
+std::string groupRows(const AccuracyGroup& group, const MeasureTable& measures) {
     const std::array<std::pair<std::string_view, const std::optional<ErrorStatistics>*>, 4> axes{
         {{"east", &group.east},
          {"north", &group.north},
@@ -261,31 +299,59 @@ std::string groupRows(const AccuracyGroup& group) {
                 "<th scope=\"rowgroup\" rowspan=\"{}\">{}<br/><span class=\"note\">{}</span></th>", rows,
                 capitalised(name(group.stage)), name(group.quantity));
         }
-        out += fmt::format("<tr id=\"{}\">{}{}{}</tr>\n", anchorOf(group, axis), cells,
-                           cell(Cell::Short, axis), statisticsCells(**statistics));
+        out += fmt::format("<tr id=\"{}{}\">{}{}{}</tr>\n", anchorOf(group, axis), measures.anchor_ending,
+                           cells, cell(Cell::Short, axis), measures.cells(**statistics));
     }
     return "<tbody class=\"group\">\n" + out + "</tbody>\n";
 }
 
-std::string accuracyTable(const SurveyReport& report, MarkRole role) {
+std::string accuracyTable(const SurveyReport& report, MarkRole role, const MeasureTable& measures) {
     std::string bodies;
     for (const AccuracyGroup& group : report.accuracy) {
-        if (group.role == role) bodies += groupRows(group);
+        if (group.role == role) bodies += groupRows(group, measures);
     }
     if (bodies.empty()) return {};
-    return table({{"Compared"},
-                  {"Axis"},
-                  {"n", true},
-                  {"Marks", true},
-                  {"Mean", true},
-                  {"SD", true},
-                  {"RMSE", true},
-                  {"95 % interval of RMSE", true},
-                  {"MAE", true},
-                  {"Median", true},
-                  {"NMAD", true},
-                  {"Largest", true}},
-                 bodies);
+    return table(withMeasures({{"Compared"}, {"Axis"}}, measures), bodies);
+}
+
+std::string strataTables(const SurveyReport& report) {
+    if (report.strata.empty()) return {};
+    std::string usual, robust;
+    for (const AccuracyStratum& stratum : report.strata) {
+        usual += row(rowHead(stratum.name) + kUsualMeasures.cells(stratum.up));
+        robust += row(rowHead(stratum.name) + kRobustMeasures.cells(stratum.up));
+    }
+    return "<h3>By the ground at the check marks</h3>\n" +
+           note(
+               "Height errors of the surface. Slopes are its own, over a metre; 10 % is the limit that the "
+               "ASPRS "
+               "standard sets for check marks.") +
+           table(withMeasures({{"Ground"}}, kUsualMeasures), tableBody(usual)) +
+           table(withMeasures({{"Ground"}}, kRobustMeasures), tableBody(robust));
+}
+
+std::string nssdaTable(const SurveyReport& report) {
+    std::string rows;
+    for (const AccuracyGroup& group : report.accuracy) {
+        if (group.role != MarkRole::Check) continue;
+        rows += row(rowHead(capitalised(name(group.stage))) + cell(Cell::Text, name(group.quantity)) +
+                    metresCell(group.nssda_vertical_m.value_or(kMissing)) +
+                    metresCell(group.nssda_horizontal_m.value_or(kMissing)));
+    }
+    if (rows.empty()) return {};
+    return "<h3>Accuracy at 95 % confidence (NSSDA)</h3>\n" +
+           note(
+               "FGDC-STD-007.3-1998, errors taken for normal and unbiased: vertical 1.9600 RMSE; horizontal "
+               "1.7308 "
+               "times the RMSE of the distance, or 2.4477 times the mean RMSE of both axes where they "
+               "differ; "
+               "nothing where one is below 0.6 of the other. The standard asks for 20 check marks.") +
+           table({{"Stage"}, {"Compared"}, {"Vertical", true}, {"Horizontal", true}}, tableBody(rows));
+}
+
+std::string countedInWords(const Residual& r) {
+    if (r.used_by_estimator) return "no, used";
+    return r.possible_blunder ? "yes, a possible blunder" : "yes";
 }
 
 std::string signedSigma(const Residual& r, Eigen::Index axis) {
@@ -302,7 +368,8 @@ std::string residualTable(const SurveyReport& report) {
                 metresCell(r.difference_enu_m.x()) + metresCell(r.difference_enu_m.y()) +
                 metresCell(r.difference_enu_m.z()) + metresCell(r.sigma_enu_m.z()) +
                 cell(Cell::Number, signedSigma(r, 2)) +
-                cell(Cell::Text, r.used_by_estimator ? "no, used" : "yes") + "</tr>\n";
+                cell(Cell::Number, fixedDecimals(100.0 * r.slope, 0)) + cell(Cell::Short, name(r.cover)) +
+                cell(Cell::Text, countedInWords(r)) + "</tr>\n";
     }
     if (rows.empty()) return {};
     return table({{"Mark"},
@@ -315,13 +382,15 @@ std::string residualTable(const SurveyReport& report) {
                   {"Up [m]", true},
                   {"Predicted sigma up [m]", true},
                   {"Up in sigmas", true},
+                  {"Slope [%]", true},
+                  {"Cover"},
                   {"Counted"}},
                  tableBody(rows));
 }
 
 std::string accuracySection(const SurveyReport& report) {
-    const std::string check = accuracyTable(report, MarkRole::Check);
-    const std::string control = accuracyTable(report, MarkRole::Control);
+    const std::string check = accuracyTable(report, MarkRole::Check, kUsualMeasures);
+    const std::string control = accuracyTable(report, MarkRole::Control, kUsualMeasures);
     std::string out;
     if (check.empty() && control.empty()) {
         out = note("No mark was compared with the product in a way that counts, so there are no figures.");
@@ -329,13 +398,17 @@ std::string accuracySection(const SurveyReport& report) {
         out = note(
             "All in metres; product less mark. SD divides by n \u2212 1. NMAD is 1.4826 times the median "
             "distance "
-            "from the median: what the SD would be without outliers. The interval of the RMSE comes from "
-            "redrawing the marks.");
-        out += "<h3>Check marks: used for nothing but this table</h3>\n";
-        out += check.empty() ? note("No check mark was compared.") : check;
+            "from the median: what the SD would be without outliers. |d| is the size of a difference. "
+            "Intervals "
+            "come from redrawing the marks.");
+        out += "<h3>Check marks: used for nothing but these figures</h3>\n";
+        out += check.empty() ? note("No check mark was compared.")
+                             : check + accuracyTable(report, MarkRole::Check, kRobustMeasures);
+        out += nssdaTable(report) + strataTables(report);
     }
     if (!control.empty()) {
-        out += "<h3>Control marks: open to alignment and tuning, so they prove less</h3>\n" + control;
+        out += "<h3>Control marks: open to alignment and tuning, so they prove less</h3>\n" + control +
+               accuracyTable(report, MarkRole::Control, kRobustMeasures);
     }
     out += folded(fmt::format("All comparisons, mark by mark: {}", groupedDigits(report.residuals.size())),
                   residualTable(report));

@@ -29,6 +29,15 @@ Json jsonVector(const Eigen::Vector3d& v) {
     return Json::array({jsonNumber(v.x()), jsonNumber(v.y()), jsonNumber(v.z())});
 }
 
+Json intervalJson(const std::optional<ConfidenceInterval>& interval) {
+    if (!interval) return nullptr;
+    return Json::array({jsonNumber(interval->low_m), jsonNumber(interval->high_m)});
+}
+
+Json optionalJson(const std::optional<double>& value) {
+    return value ? jsonNumber(*value) : Json(nullptr);
+}
+
 Json statisticsJson(const std::optional<ErrorStatistics>& s) {
     if (!s) return nullptr;
     return {{"n", s->n},
@@ -36,12 +45,15 @@ Json statisticsJson(const std::optional<ErrorStatistics>& s) {
             {"mean_m", jsonNumber(s->mean_m)},
             {"sd_m", s->sd_m ? jsonNumber(*s->sd_m) : Json(nullptr)},
             {"rmse_m", jsonNumber(s->rmse_m)},
-            {"rmse_95_m", s->rmse_95
-                              ? Json::array({jsonNumber(s->rmse_95->low_m), jsonNumber(s->rmse_95->high_m)})
-                              : Json(nullptr)},
+            {"rmse_95_m", intervalJson(s->rmse_95)},
             {"mae_m", jsonNumber(s->mae_m)},
             {"median_m", jsonNumber(s->median_m)},
+            {"median_95_m", intervalJson(s->median_95)},
             {"nmad_m", jsonNumber(s->nmad_m)},
+            {"nmad_95_m", intervalJson(s->nmad_95)},
+            {"error68_m", jsonNumber(s->error68_m)},
+            {"error95_m", jsonNumber(s->error95_m)},
+            {"error95_95_m", intervalJson(s->error95_95)},
             {"largest_m", jsonNumber(s->largest_m)}};
 }
 
@@ -63,11 +75,25 @@ Json groupJson(const AccuracyGroup& group) {
     json["horizontal"] = statisticsJson(group.horizontal);
     json["up_coverage"] = nullptr;
     if (group.up_coverage) json["up_coverage"] = coverageJson(*group.up_coverage);
+    json["nssda_vertical_m"] = optionalJson(group.nssda_vertical_m);
+    json["nssda_horizontal_m"] = optionalJson(group.nssda_horizontal_m);
     return json;
 }
 
 Json headlineJson(const SurveyReport& report) {
     return report.headline ? groupNameJson(report.accuracy.at(*report.headline)) : Json(nullptr);
+}
+
+Json stratumJson(const AccuracyStratum& stratum) {
+    return {{"name", stratum.name}, {"up", statisticsJson(stratum.up)}};
+}
+
+Json leakageJson(const std::optional<SlopeLeakage>& leakage) {
+    if (!leakage) return nullptr;
+    return {{"plan_rmse_m", leakage->plan_rmse_m},
+            {"rmse_m", leakage->rmse_m},
+            {"share", leakage->share},
+            {"n", leakage->n}};
 }
 
 Json residualJson(const Residual& r) {
@@ -79,7 +105,10 @@ Json residualJson(const Residual& r) {
             {"mark_enu_m", jsonVector(r.mark_enu_m)},
             {"difference_enu_m", jsonVector(r.difference_enu_m)},
             {"sigma_enu_m", jsonVector(r.sigma_enu_m)},
-            {"used_by_estimator", r.used_by_estimator}};
+            {"used_by_estimator", r.used_by_estimator},
+            {"slope", jsonNumber(r.slope)},
+            {"cover", name(r.cover)},
+            {"possible_blunder", r.possible_blunder}};
 }
 
 Json missingJson(const MissingResidual& m) {
@@ -198,9 +227,6 @@ Json settingJson(const UsedSetting& s) {
 Json tuningJson(const std::optional<TuningRecord>& tuning) {
     if (!tuning) return nullptr;
     const TuningRecord& t = *tuning;
-    const auto optional = [](const std::optional<double>& value) {
-        return value ? jsonNumber(*value) : Json(nullptr);
-    };
     return {{"in_use", t.in_use},
             {"holds_out_better", t.holds_out_better},
             {"decision", t.decision},
@@ -215,8 +241,8 @@ Json tuningJson(const std::optional<TuningRecord>& tuning) {
             {"loss", t.loss},
             {"loss_before", jsonNumber(t.loss_before)},
             {"loss_after", jsonNumber(t.loss_after)},
-            {"left_out_before", optional(t.left_out_before)},
-            {"left_out_after", optional(t.left_out_after)},
+            {"left_out_before", optionalJson(t.left_out_before)},
+            {"left_out_after", optionalJson(t.left_out_after)},
             {"warnings", t.warnings},
             {"marks", listOf(t.marks, [](const ControlMark& mark) { return mark.name; })}};
 }
@@ -265,6 +291,8 @@ std::string reportJson(const SurveyReport& report) {
                     {"warnings", report.warnings},
                     {"headline", headlineJson(report)},
                     {"accuracy", listOf(report.accuracy, groupJson)},
+                    {"strata", listOf(report.strata, stratumJson)},
+                    {"slope_leakage", leakageJson(report.slope_leakage)},
                     {"residuals", listOf(report.residuals, residualJson)},
                     {"missing_residuals", listOf(report.missing_residuals, missingJson)},
                     {"marks", listOf(report.marks, markJson)},

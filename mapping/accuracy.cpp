@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "mapping/order_statistics.hpp"
 
@@ -14,8 +16,9 @@ namespace terrawalk {
 namespace {
 
 constexpr std::size_t kResamples = 4000;
+constexpr std::size_t kRobustResamples = 1000;  // of them, for what takes sorting
 constexpr std::size_t kLeastMarksForInterval = 5;
-constexpr double kNormalMad = 1.4826;   // NMAD of a normal distribution is its sigma
+constexpr double kNormalMad = 1.4826;  // NMAD of a normal distribution is its sigma
 
 /// Steele, Lea and Flood 2014; standard generators differ between libraries in what they make of a seed.
 class SplitMix64 {
@@ -34,29 +37,58 @@ class SplitMix64 {
     std::uint64_t state_;
 };
 
-struct SquaresOfMark {
-    double sum = 0.0;
-    double count = 0.0;
-};
+/// The differences at one mark.
+using MarkSample = std::vector<double>;
 
-std::optional<ConfidenceInterval> bootstrapRmse(const std::vector<SquaresOfMark>& marks, std::uint64_t seed) {
-    if (marks.size() < kLeastMarksForInterval) return std::nullopt;
-    SplitMix64 random(seed);
-    std::vector<double> rmse(kResamples);
-    for (double& value : rmse) {
-        SquaresOfMark total;
-        for (std::size_t i = 0; i < marks.size(); ++i) {
-            const SquaresOfMark& drawn = marks[random.below(marks.size())];
-            total.sum += drawn.sum;
-            total.count += drawn.count;
-        }
-        value = std::sqrt(total.sum / total.count);
-    }
-    std::sort(rmse.begin(), rmse.end());
-    return ConfidenceInterval{quantileOfSorted(rmse, 0.025), quantileOfSorted(rmse, 0.975)};
+double rms(const std::vector<double>& values) {
+    double squares = 0.0;
+    for (const double value : values) squares += value * value;
+    return std::sqrt(squares / static_cast<double>(values.size()));
 }
 
-ErrorStatistics statistics(const std::vector<double>& d, const std::vector<SquaresOfMark>& marks,
+double nmadAbout(const std::vector<double>& d, double median_m) {
+    std::vector<double> from_median(d.size());
+    std::transform(d.begin(), d.end(), from_median.begin(),
+                   [&](double value) { return std::abs(value - median_m); });
+    return kNormalMad * median(std::move(from_median));
+}
+
+std::vector<double> sortedMagnitudes(const std::vector<double>& d) {
+    std::vector<double> magnitudes(d.size());
+    std::transform(d.begin(), d.end(), magnitudes.begin(), [](double value) { return std::abs(value); });
+    std::sort(magnitudes.begin(), magnitudes.end());
+    return magnitudes;
+}
+
+ConfidenceInterval middle95(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return {quantileOfSorted(values, 0.025), quantileOfSorted(values, 0.975)};
+}
+
+void addIntervals(const std::vector<MarkSample>& marks, std::uint64_t seed, ErrorStatistics& s) {
+    if (marks.size() < kLeastMarksForInterval) return;
+    SplitMix64 random(seed);
+    std::vector<double> rmse, medians, nmads, errors95;
+    std::vector<double> drawn;
+    for (std::size_t resample = 0; resample < kResamples; ++resample) {
+        drawn.clear();
+        for (std::size_t i = 0; i < marks.size(); ++i) {
+            const MarkSample& mark = marks[random.below(marks.size())];
+            drawn.insert(drawn.end(), mark.begin(), mark.end());
+        }
+        rmse.push_back(rms(drawn));
+        if (resample >= kRobustResamples) continue;
+        medians.push_back(median(drawn));
+        nmads.push_back(nmadAbout(drawn, medians.back()));
+        errors95.push_back(quantileOfSorted(sortedMagnitudes(drawn), 0.95));
+    }
+    s.rmse_95 = middle95(std::move(rmse));
+    s.median_95 = middle95(std::move(medians));
+    s.nmad_95 = middle95(std::move(nmads));
+    s.error95_95 = middle95(std::move(errors95));
+}
+
+ErrorStatistics statistics(const std::vector<double>& d, const std::vector<MarkSample>& marks,
                            std::uint64_t seed) {
     assert(!d.empty());
     const auto n = static_cast<double>(d.size());
@@ -64,23 +96,22 @@ ErrorStatistics statistics(const std::vector<double>& d, const std::vector<Squar
     s.n = d.size();
     s.marks = marks.size();
     s.mean_m = std::accumulate(d.begin(), d.end(), 0.0) / n;
-    double squares = 0.0, deviations = 0.0, magnitudes = 0.0;
+    double deviations = 0.0, magnitudes = 0.0;
     for (const double value : d) {
-        squares += value * value;
         deviations += (value - s.mean_m) * (value - s.mean_m);
         magnitudes += std::abs(value);
     }
-    s.rmse_m = std::sqrt(squares / n);
+    s.rmse_m = rms(d);
     if (d.size() >= 2) s.sd_m = std::sqrt(deviations / (n - 1.0));
     s.mae_m = magnitudes / n;
     s.median_m = median(d);
-    std::vector<double> from_median(d.size());
-    std::transform(d.begin(), d.end(), from_median.begin(),
-                   [&](double value) { return std::abs(value - s.median_m); });
-    s.nmad_m = kNormalMad * median(std::move(from_median));
+    s.nmad_m = nmadAbout(d, s.median_m);
+    const std::vector<double> sorted = sortedMagnitudes(d);
+    s.error68_m = quantileOfSorted(sorted, 0.683);
+    s.error95_m = quantileOfSorted(sorted, 0.95);
     s.largest_m =
         *std::max_element(d.begin(), d.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-    s.rmse_95 = bootstrapRmse(marks, seed);
+    addIntervals(marks, seed, s);
     return s;
 }
 
@@ -110,22 +141,21 @@ std::optional<SigmaCoverage> heightCoverage(const std::vector<const Residual*>& 
 }  // namespace
 
 ErrorStatistics errorStatistics(const std::vector<double>& differences_m, std::uint64_t seed) {
-    std::vector<SquaresOfMark> marks;
+    std::vector<MarkSample> marks;
     marks.reserve(differences_m.size());
-    for (const double d : differences_m) marks.push_back({d * d, 1.0});
+    for (const double d : differences_m) marks.push_back({d});
     return statistics(differences_m, marks, seed);
 }
 
 ErrorStatistics errorStatistics(const std::vector<MarkDifference>& differences, std::uint64_t seed) {
     std::vector<double> d;
-    std::vector<SquaresOfMark> marks;
+    std::vector<MarkSample> marks;
     std::map<std::string, std::size_t> index_of_mark;
     for (const auto& [mark, difference_m] : differences) {
         d.push_back(difference_m);
         const auto [at, is_new] = index_of_mark.try_emplace(mark, marks.size());
         if (is_new) marks.emplace_back();
-        marks[at->second].sum += difference_m * difference_m;
-        marks[at->second].count += 1.0;
+        marks[at->second].push_back(difference_m);
     }
     return statistics(d, marks, seed);
 }
@@ -158,11 +188,107 @@ std::vector<AccuracyGroup> accuracyGroups(const std::vector<Residual>& residuals
                 group.horizontal = ofAxis(
                     members, seed, [](const Vector& d) { return std::sqrt(d.x() * d.x() + d.y() * d.y()); });
                 group.up_coverage = heightCoverage(members);
+                if (group.up) group.nssda_vertical_m = nssdaVertical_m(group.up->rmse_m);
+                if (group.east && group.north) {
+                    group.nssda_horizontal_m = nssdaHorizontal_m(group.east->rmse_m, group.north->rmse_m);
+                }
                 if (group.east || group.north || group.up) groups.push_back(std::move(group));
             }
         }
     }
     return groups;
+}
+
+double nssdaVertical_m(double rmse_z_m) {
+    return 1.9600 * rmse_z_m;
+}
+
+std::optional<double> nssdaHorizontal_m(double rmse_x_m, double rmse_y_m) {
+    constexpr double kLeastRatio = 0.6, kSame = 1e-9;
+    const double low = std::min(rmse_x_m, rmse_y_m), high = std::max(rmse_x_m, rmse_y_m);
+    if (low >= (1.0 - kSame) * high) return 1.7308 * std::hypot(rmse_x_m, rmse_y_m);
+    if (low >= kLeastRatio * high) return 2.4477 * 0.5 * (rmse_x_m + rmse_y_m);
+    return std::nullopt;
+}
+
+bool countsIn(const Residual& residual, const AccuracyGroup& group) {
+    return residual.stage == group.stage && residual.quantity == group.quantity &&
+           residual.role == group.role && !residual.used_by_estimator &&
+           std::isfinite(residual.difference_enu_m.z());
+}
+
+std::vector<AccuracyStratum> accuracyStrata(const std::vector<Residual>& residuals,
+                                            const AccuracyGroup& group, std::uint64_t seed) {
+    constexpr double kTreadSlope = 0.10, kRiserSlope = 0.30;
+    std::vector<AccuracyStratum> strata;
+    const auto add = [&](std::string name, auto belongs) {
+        std::vector<MarkDifference> differences;
+        for (const Residual& r : residuals) {
+            if (countsIn(r, group) && belongs(r)) differences.push_back({r.mark, r.difference_enu_m.z()});
+        }
+        if (!differences.empty()) strata.push_back({std::move(name), errorStatistics(differences, seed)});
+    };
+    add("tread, slope below 10 %", [](const Residual& r) { return r.slope < kTreadSlope; });
+    add("slope of 10 to 30 %",
+        [](const Residual& r) { return r.slope >= kTreadSlope && r.slope < kRiserSlope; });
+    add("riser, slope of 30 % and more", [](const Residual& r) { return r.slope >= kRiserSlope; });
+    add("open", [](const Residual& r) { return r.cover == GroundCover::Open; });
+    add("vegetated", [](const Residual& r) { return r.cover == GroundCover::Vegetated; });
+    return strata;
+}
+
+std::optional<SlopeLeakage> slopeLeakage(const std::vector<Residual>& residuals,
+                                         const std::vector<AccuracyGroup>& groups,
+                                         const AccuracyGroup& group) {
+    const AccuracyGroup* stands = nullptr;
+    for (const AccuracyGroup& g : groups) {  // check marks come before control marks
+        if (g.stage == Stage::Fused && g.quantity == Quantity::ArrayPosition && g.east && g.north) {
+            stands = &g;
+            break;
+        }
+    }
+    if (stands == nullptr) return std::nullopt;
+    SlopeLeakage leakage;
+    leakage.plan_rmse_m = std::hypot(stands->east->rmse_m, stands->north->rmse_m) / std::sqrt(2.0);
+    double leaked = 0.0, observed = 0.0;
+    for (const Residual& r : residuals) {
+        if (!countsIn(r, group) || !std::isfinite(r.slope)) continue;
+        ++leakage.n;
+        leaked += std::pow(leakage.plan_rmse_m * r.slope, 2.0);
+        observed += r.difference_enu_m.z() * r.difference_enu_m.z();
+    }
+    if (leakage.n == 0 || observed <= 0.0) return std::nullopt;
+    leakage.rmse_m = std::sqrt(leaked / static_cast<double>(leakage.n));
+    leakage.share = leaked / observed;
+    return leakage;
+}
+
+std::vector<Residual> withBlundersFlagged(std::vector<Residual> residuals) {
+    constexpr std::size_t kLeastForBlunders = 5;
+    struct Squares {
+        double sum = 0.0;
+        std::size_t n = 0;
+    };
+    std::map<std::tuple<Stage, Quantity, MarkRole>, Squares> groups;
+    const auto counts = [](const Residual& r) {
+        return !r.used_by_estimator && std::isfinite(r.difference_enu_m.z());
+    };
+    for (const Residual& r : residuals) {
+        if (!counts(r)) continue;
+        Squares& squares = groups[{r.stage, r.quantity, r.role}];
+        squares.sum += r.difference_enu_m.z() * r.difference_enu_m.z();
+        ++squares.n;
+    }
+    for (Residual& r : residuals) {
+        r.possible_blunder = false;
+        if (!counts(r)) continue;
+        const Squares& squares = groups.at({r.stage, r.quantity, r.role});
+        if (squares.n < kLeastForBlunders) continue;
+        const double square = r.difference_enu_m.z() * r.difference_enu_m.z();
+        const double others = std::max(0.0, squares.sum - square) / static_cast<double>(squares.n - 1);
+        r.possible_blunder = square > kBlunderMultiple * kBlunderMultiple * others;
+    }
+    return residuals;
 }
 
 double rmseWithMarkError_m(double rmse_fit_m, double sigma_marks_m) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ struct MarkDifference {
 };
 
 /// Error measures of differences, each on a mark of its own. Needs at least one; all finite.
-/// The 95 % interval of the RMSE is a percentile bootstrap that draws marks, so that ten runs over one mark
+/// The 95 % intervals are percentile bootstraps that draw marks, so that ten runs over one mark
 /// count as one mark. The same differences in the same order with the same seed give the same bits on every
 /// machine. Pure; safe from any thread.
 [[nodiscard]] ErrorStatistics errorStatistics(const std::vector<double>& differences_m, std::uint64_t seed);
@@ -28,6 +29,32 @@ struct MarkDifference {
 /// counted, axes that are missing (not finite) neither. Pure; safe from any thread.
 [[nodiscard]] std::vector<AccuracyGroup> accuracyGroups(const std::vector<Residual>& residuals,
                                                         std::uint64_t seed);
+
+/// Accuracy at 95 % confidence of the National Standard for Spatial Data Accuracy (FGDC-STD-007.3-1998),
+/// errors taken for normal and unbiased: 1.9600 RMSE_z in height; in plan 1.7308 RMSE_r where both axes have
+/// one RMSE, 2.4477 times their mean where the smaller is at least 0.6 of the greater, nothing beyond. Pure.
+[[nodiscard]] double nssdaVertical_m(double rmse_z_m);
+[[nodiscard]] std::optional<double> nssdaHorizontal_m(double rmse_x_m, double rmse_y_m);
+
+/// The heights of a group by the slope of the surface at the marks - tread, slope, riser - and by what grows
+/// there, where it is known. None that is empty. The limit of the treads is the slope up to which the ASPRS
+/// standard wants check marks. Pure.
+[[nodiscard]] std::vector<AccuracyStratum> accuracyStrata(const std::vector<Residual>& residuals,
+                                                          const AccuracyGroup& group, std::uint64_t seed);
+
+/// Nothing without slopes at the group's marks, or without stands on marks, check marks before control, that
+/// tell the error in plan. Pure.
+[[nodiscard]] std::optional<SlopeLeakage> slopeLeakage(const std::vector<Residual>& residuals,
+                                                       const std::vector<AccuracyGroup>& groups,
+                                                       const AccuracyGroup& group);
+
+/// The residuals with those flagged whose height difference is more than kBlunderMultiple times the RMSE of
+/// the others of its group (stage, quantity, role). Groups of fewer than five flag none. Pure.
+[[nodiscard]] std::vector<Residual> withBlundersFlagged(std::vector<Residual> residuals);
+inline constexpr double kBlunderMultiple = 3.0;  ///< ASPRS Edition 2, section 7.2, has it of the target RMSE
+
+/// Whether a residual counts in the heights of a group.
+[[nodiscard]] bool countsIn(const Residual& residual, const AccuracyGroup& group);
 
 /// RMSE of a product whose marks are not perfect: the root of the sum of both squares.
 /// Source: ASPRS Positional Accuracy Standards, Edition 2, section 7.11.

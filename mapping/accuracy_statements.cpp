@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kAsprsCheckMarks = 30;
 constexpr std::size_t kNamesInASentence = 12;
 constexpr double kNotableBiasShare = 0.5;  // of the RMSE
-constexpr double kBlunderMultiple = 3.0;   // of the RMSE; ASPRS Edition 2, section 7.2, of the target RMSE
+constexpr std::size_t kNssdaCheckMarks = 20;
 constexpr std::size_t kFewForCoverage = 20;
 
 std::string metres(double value_m) {
@@ -77,18 +77,12 @@ std::size_t markCount(const SurveyReport& report, MarkRole role) {
                                                   [&](const ControlMark& m) { return m.role == role; }));
 }
 
-bool belongsTo(const Residual& residual, const AccuracyGroup& group) {
-    return residual.stage == group.stage && residual.quantity == group.quantity &&
-           residual.role == group.role && !residual.used_by_estimator &&
-           std::isfinite(residual.difference_enu_m.z());
-}
-
 /// Root mean square of the sigma that the total station gives for the marks of a group.
 double markSigma_m(const SurveyReport& report, const AccuracyGroup& group) {
     double squares = 0.0;
     std::size_t n = 0;
     for (const Residual& residual : report.residuals) {
-        if (!belongsTo(residual, group)) continue;
+        if (!countsIn(residual, group)) continue;
         const auto mark = std::find_if(report.marks.begin(), report.marks.end(),
                                        [&](const ControlMark& m) { return m.name == residual.mark; });
         if (mark == report.marks.end()) continue;
@@ -104,7 +98,7 @@ using SquaresOfMarks = std::map<std::string, std::pair<double, double>>;
 SquaresOfMarks squaresOfMarks(const SurveyReport& report, const AccuracyGroup& group) {
     SquaresOfMarks squares;
     for (const Residual& residual : report.residuals) {
-        if (!belongsTo(residual, group)) continue;
+        if (!countsIn(residual, group)) continue;
         auto& [sum, count] = squares[residual.mark];
         sum += residual.difference_enu_m.z() * residual.difference_enu_m.z();
         count += 1.0;
@@ -212,6 +206,29 @@ std::string standardStatement(const ErrorStatistics& up) {
         counted(up.marks, "check mark"), kAsprsCheckMarks);
 }
 
+std::string nssdaStatement(const AccuracyGroup& group) {
+    const std::string found =
+        fmt::format("{} vertical accuracy at 95 % confidence level", metres(*group.nssda_vertical_m));
+    const std::string how =
+        fmt::format("1.9600 times the RMSE of {}", counted(group.up->marks, "check mark"));
+    if (group.up->marks >= kNssdaCheckMarks) {
+        return fmt::format("Tested {} (NSSDA, FGDC-STD-007.3-1998: {}).", found, how);
+    }
+    return fmt::format(
+        "By the formula of the NSSDA (FGDC-STD-007.3-1998) it would be {} ({}), but the NSSDA asks "
+        "for {} and more.",
+        found, how, kNssdaCheckMarks);
+}
+
+std::string leakageStatement(const SlopeLeakage& leakage) {
+    return fmt::format(
+        "Errors in plan turn into errors of height on slopes: the {} along an axis seen at the stands, times "
+        "the "
+        "slope at {}, is {} (RMSE), {:.0f} % of the mean square height error.",
+        metres(leakage.plan_rmse_m), counted(leakage.n, "check mark"), metres(leakage.rmse_m),
+        100.0 * leakage.share);
+}
+
 std::string gainStatement(const SurveyReport& report, const AccuracyGroup& after, const Gain& gain) {
     const std::string_view measure = name(beforeFusion(report.accuracy, after)->quantity);
     std::string text =
@@ -246,13 +263,11 @@ std::vector<std::string> suspicions(const SurveyReport& report, const AccuracyGr
                         up.mean_m > 0.0 ? "too high" : "too low", signedMetres(up.mean_m)));
     }
     for (const Residual& residual : report.residuals) {
-        if (!belongsTo(residual, group)) continue;
-        const double d = residual.difference_enu_m.z();
-        if (std::abs(d) > kBlunderMultiple * up.rmse_m) {
-            out.push_back(fmt::format(
-                "{} is off by {}, more than {:g} times the RMSE: a possible blunder. It is counted.",
-                residual.mark, signedMetres(d), kBlunderMultiple));
-        }
+        if (!countsIn(residual, group) || !residual.possible_blunder) continue;
+        out.push_back(
+            fmt::format("{} is off by {}, more than {:g} times the RMSE of the others: a possible blunder. "
+                        "It is counted.",
+                        residual.mark, signedMetres(residual.difference_enu_m.z()), kBlunderMultiple));
     }
     return out;
 }
@@ -303,6 +318,12 @@ std::string controlSentence(const SurveyReport& report) {
                      marks);
 }
 
+bool coverUnknown(const SurveyReport& report, const AccuracyGroup& group) {
+    return std::none_of(report.residuals.begin(), report.residuals.end(), [&](const Residual& r) {
+        return countsIn(r, group) && r.cover != GroundCover::Unknown;
+    });
+}
+
 }  // namespace
 
 std::optional<std::size_t> headlineGroup(const std::vector<AccuracyGroup>& groups) {
@@ -330,7 +351,8 @@ std::vector<std::string> accuracyStatements(const SurveyReport& report) {
                     ? "No accuracy can be stated: the survey has no marks to compare with."
                     : "No accuracy can be stated: no check mark could be compared with the product."};
     }
-    std::vector<std::string> out{foundStatement(report, *group), standardStatement(*group->up)};
+    std::vector<std::string> out{foundStatement(report, *group), standardStatement(*group->up),
+                                 nssdaStatement(*group)};
     if (const auto change = gain(report, *group)) out.push_back(gainStatement(report, *group, *change));
     if (const AccuracyGroup* fused =
             findGroup(report.accuracy, Stage::Fused, Quantity::ArrayPosition, MarkRole::Check);
@@ -338,7 +360,12 @@ std::vector<std::string> accuracyStatements(const SurveyReport& report) {
         out.push_back(fmt::format("Standing on {}, the fused position was off by {} in plan (RMSE).",
                                   counted(fused->horizontal->marks, "check mark"),
                                   metres(fused->horizontal->rmse_m)));
+        if (fused->nssda_horizontal_m) {
+            out.back() += fmt::format(" By the NSSDA that is {} at 95 % confidence.",
+                                      metres(*fused->nssda_horizontal_m));
+        }
     }
+    if (report.slope_leakage) out.push_back(leakageStatement(*report.slope_leakage));
     if (group->up_coverage) out.push_back(coverageStatement(*group->up_coverage));
     for (std::string& sentence : suspicions(report, *group)) out.push_back(std::move(sentence));
     return out;
@@ -362,6 +389,12 @@ std::vector<std::string> accuracyLimitations(const SurveyReport& report) {
             fmt::format("{} {} a small sample: the true error may differ a good deal from the figure found.",
                         counted(marks, "check mark"), marks == 1 ? "is" : "are"));
     }
+    if (group != nullptr && group->stage == Stage::Surface && coverUnknown(report, *group)) {
+        out.emplace_back(
+            "Whether the check marks stand among plants or in the open is not known: the points were not "
+            "looked "
+            "through for what stands on the ground, or too few lie near the marks.");
+    }
     for (std::string& sentence : missingSentences(report)) out.push_back(std::move(sentence));
     const auto tied = std::count_if(report.residuals.begin(), report.residuals.end(),
                                     [](const Residual& r) { return r.used_by_estimator; });
@@ -374,8 +407,13 @@ std::vector<std::string> accuracyLimitations(const SurveyReport& report) {
 }
 
 SurveyReport withAccuracy(SurveyReport report) {
+    report.residuals = withBlundersFlagged(std::move(report.residuals));
     report.accuracy = accuracyGroups(report.residuals, report.seed);
     report.headline = headlineGroup(report.accuracy);
+    if (const AccuracyGroup* const group = headlineOf(report)) {
+        report.strata = accuracyStrata(report.residuals, *group, report.seed);
+        report.slope_leakage = slopeLeakage(report.residuals, report.accuracy, *group);
+    }
     report.figures = keyFigures(report);
     report.statements = accuracyStatements(report);
     std::vector<std::string> limitations = accuracyLimitations(report);

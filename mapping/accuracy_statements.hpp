@@ -31,9 +31,9 @@ namespace terrawalk {
 /// few of them, marks that met no surface or no point, residuals that the estimator has seen.
 [[nodiscard]] std::vector<std::string> accuracyLimitations(const SurveyReport& report);
 
-/// The report with accuracy, figures and statements filled in from its marks and residuals, and the
-/// limitations above put before those that it has. Call once, when everything else is in. Pure; safe from any
-/// thread.
+/// The report with blunders, accuracy, strata, figures and statements filled in from its marks and residuals,
+/// and the limitations above put before those that it has. Call once, when everything else is in. Pure; safe
+/// from any thread.
 [[nodiscard]] SurveyReport withAccuracy(SurveyReport report);
 
 }  // namespace terrawalk

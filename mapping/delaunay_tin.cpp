@@ -1,21 +1,18 @@
 #include "mapping/delaunay_tin.hpp"
 
-#include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <mutex>
 #include <new>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
+#include "mapping/delaunay_triangles.hpp"
 #include "mapping/edge_limit.hpp"
 #include "mapping/point_order.hpp"
 #include "mapping/triangle_locator.hpp"
@@ -23,26 +20,16 @@
 namespace terrawalk {
 
 struct DelaunayTin::Surface {
-    TriangleMesh mesh;
-    double longest_edge_m = 0.0;
-    double area_m2 = 0.0;
-    /// Only who asks for heights pays for the locator.
-    mutable std::once_flag locator_made;
-    mutable std::optional<TriangleLocator> locator;
+    GroundMesh ground;
+    LocatorOnDemand locator;
 };
 
 namespace {
 
-// The triangulation works on the coordinates as they stand: exact predicates need no origin nearby. Heights
-// ride along as indices, which keeps vertices small.
+// Exact predicates work on the coordinates as they stand and need no origin nearby.
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using PlanPoint = Kernel::Point_2;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
-using Triangulation =
-    CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase>>;
 using Triangle = std::array<std::uint32_t, 3>;
-
-constexpr std::size_t kInsertionsBetweenReports = 16384;
 
 PlanPoint plan(const Eigen::Vector3d& point_m) {
     return {point_m.x(), point_m.y()};
@@ -59,76 +46,27 @@ std::optional<std::size_t> findOffLine(const std::vector<Eigen::Vector3d>& point
     return std::nullopt;
 }
 
-/// Biased randomized insertion order (Amenta, Choi and Rote 2003): sparse levels first, each along the curve.
-/// It bounds the cost for points in any arrangement. The level of a point is the number of trailing zero bit
-/// pairs of its scrambled index: a quarter of the points moves up each time.
-std::vector<std::uint32_t> insertionOrder(std::size_t count) {
-    constexpr std::size_t kLevels = 12;
-    const auto level = [](std::size_t index) {
-        std::uint64_t bits = (index + 1) * 0x9E3779B97F4A7C15ULL;
-        bits = (bits ^ (bits >> 32)) * 0xD6E8FEB86659FD93ULL;
-        return std::min<std::size_t>(static_cast<std::size_t>(std::countr_zero(bits >> 16)) / 2, kLevels - 1);
-    };
-    std::array<std::size_t, kLevels + 1> begins{};
-    for (std::size_t i = 0; i < count; ++i) {
-        ++begins[kLevels - level(i)];
-    }
-    std::partial_sum(begins.begin(), begins.end(), begins.begin());
-    std::vector<std::uint32_t> order(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        order[begins[kLevels - 1 - level(i)]++] = static_cast<std::uint32_t>(i);
-    }
-    return order;
+/// From its lowest index on.
+Triangle fromLowest(const Triangle& t) {
+    const auto [a, b, c] = t;
+    if (a < b && a < c) return t;
+    return b < c ? Triangle{b, c, a} : Triangle{c, a, b};
 }
 
-/// @param off_line  a point that makes a triangle with the first and the last. These three come first: along
-/// a
-///                  straight line alone CGAL searches from end to end for each point.
-Result<Triangulation> triangulate(const std::vector<Eigen::Vector3d>& points_m, std::size_t off_line,
-                                  Progress& progress, std::stop_token stop) {
-    Triangulation triangulation;
-    Triangulation::Face_handle near;
-    const auto insert = [&](std::size_t i) {
-        const Triangulation::Vertex_handle vertex = triangulation.insert(plan(points_m[i]), near);
-        vertex->info() = static_cast<std::uint32_t>(i);
-        near = vertex->face();
-    };
-    insert(0);
-    insert(points_m.size() - 1);
-    insert(off_line);
-    std::size_t done = 0;
-    for (const std::uint32_t i : insertionOrder(points_m.size())) {
-        if (++done % kInsertionsBetweenReports == 0) {
-            if (stop.stop_requested()) {
-                return cancelled();
-            }
-            progress.report(static_cast<double>(done) / static_cast<double>(points_m.size()),
-                            "triangulating");
-        }
-        insert(i);
+/// Each from its lowest index on, in rising order.
+std::vector<Triangle> inRisingOrder(const std::vector<Triangle>& triangles, std::size_t vertex_count) {
+    std::vector<std::uint32_t> ends(vertex_count, 0);  // at first the begins, then moved on
+    for (const Triangle& triangle : triangles) ++ends[std::min({triangle[0], triangle[1], triangle[2]})];
+    std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), std::uint32_t{0});
+    std::vector<Triangle> ordered(triangles.size());
+    for (const Triangle& triangle : triangles) {
+        const Triangle turned = fromLowest(triangle);
+        ordered[ends[turned[0]]++] = turned;
     }
-    return triangulation;
-}
-
-/// Each triangle from its lowest index on, in rising order: the same list however CGAL stores its faces.
-std::vector<Triangle> orderedTriangles(const Triangulation& triangulation, std::size_t vertex_count) {
-    std::vector<Triangle> found;
-    found.reserve(triangulation.number_of_faces());
-    std::vector<std::size_t> begins(vertex_count + 1, 0);
-    for (const auto face : triangulation.finite_face_handles()) {
-        Triangle triangle{face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()};
-        std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
-        found.push_back(triangle);
-        ++begins[triangle[0] + 1];
-    }
-    std::partial_sum(begins.begin(), begins.end(), begins.begin());
-    std::vector<Triangle> ordered(found.size());
-    std::vector<std::size_t> next(begins.begin(), begins.end() - 1);
-    for (const Triangle& triangle : found) {
-        ordered[next[triangle[0]]++] = triangle;
-    }
-    for (std::size_t vertex = 0; vertex < vertex_count; ++vertex) {
-        std::sort(ordered.data() + begins[vertex], ordered.data() + begins[vertex + 1]);
+    std::uint32_t begin = 0;
+    for (const std::uint32_t end : ends) {
+        std::sort(ordered.data() + begin, ordered.data() + end);
+        begin = end;
     }
     return ordered;
 }
@@ -209,20 +147,18 @@ Result<TriangleMesh> delaunayMesh(const std::vector<Eigen::Vector3d>& points_m, 
         return badData(fmt::format("all {} ground points lie on one straight line", mesh.vertices_m.size()),
                        {}, 0, kCure);
     }
-    const Result<Triangulation> triangulation = triangulate(mesh.vertices_m, *off_line, progress, stop);
-    if (!triangulation) {
-        return tl::unexpected(triangulation.error());
+    const auto triangles = delaunayTriangles(mesh.vertices_m, *off_line, progress, stop);
+    if (!triangles) {
+        return tl::unexpected(triangles.error());
     }
-    mesh.triangles = orderedTriangles(*triangulation, mesh.vertices_m.size());
+    mesh.triangles = inRisingOrder(*triangles, mesh.vertices_m.size());
     return mesh;
 }
 
 }  // namespace
 
-DelaunayTin::DelaunayTin(std::shared_ptr<const Surface> surface) : surface_(std::move(surface)) {}
-
-Result<DelaunayTin> DelaunayTin::build(const std::vector<Eigen::Vector3d>& points_m,
-                                       const TinOptions& options, Progress& progress, std::stop_token stop) {
+Result<GroundMesh> triangulatePoints(const std::vector<Eigen::Vector3d>& points_m, const TinOptions& options,
+                                     Progress& progress, std::stop_token stop) {
     if (!(options.longest_edge_m >= 0.0)) {
         return usageError("the longest edge of the surface's triangles may not be below zero",
                           "give metres, or 0 to take it from the points");
@@ -233,23 +169,23 @@ Result<DelaunayTin> DelaunayTin::build(const std::vector<Eigen::Vector3d>& point
             return tl::unexpected(mesh.error());
         }
         const std::vector<TriangleExtent> extent = extents(*mesh);
-        auto surface = std::make_shared<Surface>();
-        surface->longest_edge_m = options.longest_edge_m > 0.0
-                                      ? options.longest_edge_m
-                                      : longestEdgeLimit(extent, mesh->vertices_m.size());
-        surface->mesh = withinLimit(std::move(*mesh), extent, surface->longest_edge_m);
-        if (surface->mesh.triangles.empty()) {
+        GroundMesh ground;
+        ground.longest_edge_m = options.longest_edge_m > 0.0
+                                    ? options.longest_edge_m
+                                    : longestEdgeLimit(extent, mesh->vertices_m.size());
+        ground.mesh = withinLimit(std::move(*mesh), extent, ground.longest_edge_m);
+        if (ground.mesh.triangles.empty()) {
             return badData(fmt::format("no triangle between the ground points has all edges within {} m",
-                                       surface->longest_edge_m),
+                                       ground.longest_edge_m),
                            {}, 0, "allow a longer edge, or 0 to take the limit from the points");
         }
         for (const TriangleExtent& triangle : extent) {
-            if (triangle.longest_edge_m <= surface->longest_edge_m) {
-                surface->area_m2 += triangle.area_m2;
+            if (triangle.longest_edge_m <= ground.longest_edge_m) {
+                ground.area_m2 += triangle.area_m2;
             }
         }
         progress.report(1.0, "triangulating");
-        return DelaunayTin(std::move(surface));
+        return ground;
     } catch (const std::bad_alloc&) {
         return systemError(fmt::format("not enough memory to triangulate {} points", points_m.size()), {},
                            "thin the points");
@@ -258,19 +194,29 @@ Result<DelaunayTin> DelaunayTin::build(const std::vector<Eigen::Vector3d>& point
     }
 }
 
+DelaunayTin::DelaunayTin(std::shared_ptr<const Surface> surface) : surface_(std::move(surface)) {}
+
+Result<DelaunayTin> DelaunayTin::build(const std::vector<Eigen::Vector3d>& points_m,
+                                       const TinOptions& options, Progress& progress, std::stop_token stop) {
+    auto ground = triangulatePoints(points_m, options, progress, std::move(stop));
+    if (!ground) return tl::unexpected(ground.error());
+    auto surface = std::make_shared<Surface>();
+    surface->ground = std::move(*ground);
+    return DelaunayTin(std::move(surface));
+}
+
 const TriangleMesh& DelaunayTin::mesh() const {
-    return surface_->mesh;
+    return surface_->ground.mesh;
 }
 double DelaunayTin::longestEdge_m() const {
-    return surface_->longest_edge_m;
+    return surface_->ground.longest_edge_m;
 }
 double DelaunayTin::area_m2() const {
-    return surface_->area_m2;
+    return surface_->ground.area_m2;
 }
 
 std::optional<double> DelaunayTin::heightAt(double x_m, double y_m) const {
-    std::call_once(surface_->locator_made, [this] { surface_->locator.emplace(surface_->mesh); });
-    return surface_->locator->heightAt(surface_->mesh, x_m, y_m);
+    return surface_->locator.of(mesh()).heightAt(mesh(), x_m, y_m);
 }
 
 }  // namespace terrawalk

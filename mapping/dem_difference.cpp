@@ -11,8 +11,8 @@ constexpr double kNormal95 = 1.959963984540054;  // two-sided
 
 }  // namespace
 
-DemDifference demDifference(const ElevationGrid& later, const ElevationGrid& earlier,
-                            const VolumeErrorModel& errors) {
+Result<DemDifference> demDifference(const ElevationGrid& later, const ElevationGrid& earlier,
+                                    const VolumeErrorModel& errors, const std::stop_token& stop) {
     assert(later.geometry == earlier.geometry);
     DemDifference d;
     d.change = later;
@@ -31,8 +31,12 @@ DemDifference demDifference(const ElevationGrid& later, const ElevationGrid& ear
         d.lowered += beyond && change < 0.0 ? 1 : 0;
         if (!beyond) significant.heights_m[cell] = kNoHeight;
     }
-    d.all = volumeOf(d.change, errors);
-    d.significant = volumeOf(significant, errors);
+    auto all = volumeOf(d.change, errors, stop);
+    if (!all) return tl::unexpected(all.error());
+    auto beyond_error = volumeOf(significant, errors, stop);
+    if (!beyond_error) return tl::unexpected(beyond_error.error());
+    d.all = *all;
+    d.significant = *beyond_error;
     return d;
 }
 

@@ -21,9 +21,11 @@ struct DemDifference {
 
 /// Pure. Source of the threshold: Wheaton et al. 2010, "Accounting for uncertainty in DEMs from repeat
 /// topographic surveys", with errors that both surveys share (common_sigma_m) counted in each cell.
+/// Error: Cancelled.
 /// @param later, earlier  on the same cells
 /// @param errors          of the change: both surveys' variances together
-[[nodiscard]] DemDifference demDifference(const ElevationGrid& later, const ElevationGrid& earlier,
-                                          const VolumeErrorModel& errors);
+[[nodiscard]] Result<DemDifference> demDifference(const ElevationGrid& later, const ElevationGrid& earlier,
+                                                  const VolumeErrorModel& errors,
+                                                  const std::stop_token& stop = {});
 
 }  // namespace terrawalk

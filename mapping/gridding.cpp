@@ -118,12 +118,19 @@ IndexRange indicesWithin(double low, double high, std::size_t count) {
     return {first, static_cast<std::int64_t>(std::min(high, static_cast<double>(count - 1)))};
 }
 
-IndexRange rowsOf(const std::array<std::uint32_t, 3>& triangle, const std::vector<GridVertex>& vertices,
-                  std::size_t row_count) {
+/// The same of rows, in half the memory: no grid has more than kGreatestCellCount of them.
+struct RowRange {
+    std::int32_t first;
+    std::int32_t last;
+};
+
+RowRange rowsOf(const std::array<std::uint32_t, 3>& triangle, const std::vector<GridVertex>& vertices,
+                std::size_t row_count) {
     const double a = vertices[triangle[0]].row;
     const double b = vertices[triangle[1]].row;
     const double c = vertices[triangle[2]].row;
-    return indicesWithin(std::min({a, b, c}), std::max({a, b, c}), row_count);
+    const IndexRange rows = indicesWithin(std::min({a, b, c}), std::max({a, b, c}), row_count);
+    return {static_cast<std::int32_t>(rows.first), static_cast<std::int32_t>(rows.last)};
 }
 
 /// Rows of the grid that one task fills, and the triangles that touch them, in the order of the mesh.
@@ -134,7 +141,7 @@ struct RowBands {
 };
 
 template <class Visit>
-void visitBands(const std::vector<IndexRange>& rows, std::size_t rows_per_band, Visit visit) {
+void visitBands(const std::vector<RowRange>& rows, std::size_t rows_per_band, Visit visit) {
     for (std::size_t t = 0; t < rows.size(); ++t) {
         if (rows[t].first <= rows[t].last) {
             const std::size_t last = static_cast<std::size_t>(rows[t].last) / rows_per_band;
@@ -147,7 +154,7 @@ void visitBands(const std::vector<IndexRange>& rows, std::size_t rows_per_band, 
 }
 
 RowBands rowBands(const TriangleMesh& mesh, const std::vector<GridVertex>& vertices, std::size_t row_count) {
-    std::vector<IndexRange> rows(mesh.triangles.size());
+    std::vector<RowRange> rows(mesh.triangles.size());
     tbb::parallel_for(std::size_t{0}, rows.size(),
                       [&](std::size_t t) { rows[t] = rowsOf(mesh.triangles[t], vertices, row_count); });
     RowBands bands;

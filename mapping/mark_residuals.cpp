@@ -164,6 +164,21 @@ MarkResiduals nearestSampleResiduals(const Survey& survey, const std::vector<Gro
     return out;
 }
 
+GroundCover coverAt(const ControlMark& mark, const std::vector<GroundPoint>& cleaned) {
+    constexpr double kNear_m = 1.0;
+    constexpr std::size_t kLeastHits = 3;
+    std::size_t hits = 0, on_plants = 0;
+    for (const GroundPoint& point : cleaned) {
+        const bool plant = point.state == GroundPointState::AboveGround;
+        if (!plant && !hasSoundRange(point)) continue;
+        if (!((point.enu_m - mark.enu_m).head<2>().norm() <= kNear_m)) continue;
+        ++hits;
+        on_plants += plant ? 1 : 0;
+    }
+    if (on_plants > 0) return GroundCover::Vegetated;
+    return hits >= kLeastHits ? GroundCover::Open : GroundCover::Unknown;
+}
+
 MarkResiduals surfaceResiduals(const std::vector<ControlMark>& marks, const SurfaceHeightAt& surface_height,
                                Stage stage, const std::set<std::string>& tied_marks) {
     MarkResiduals out;
@@ -176,6 +191,7 @@ MarkResiduals surfaceResiduals(const std::vector<ControlMark>& marks, const Surf
         Residual residual = residualAt(mark, stage, Quantity::SurfaceHeight);
         residual.difference_enu_m.z() = surface->height_m - mark.enu_m.z();
         residual.sigma_enu_m.z() = std::hypot(surface->sigma_m, mark.sigma_v_m);
+        residual.slope = surface->slope;
         residual.used_by_estimator = tied_marks.contains(mark.name);
         out.residuals.push_back(std::move(residual));
     }

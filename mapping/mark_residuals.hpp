@@ -55,9 +55,15 @@ struct NearestSampleOptions {
 struct SurfaceHeight {
     double height_m = kMissing;  ///< in the frame of the mark's u
     double sigma_m = kMissing;   ///< missing where none is predicted
+    double slope = kMissing;     ///< rise over run; missing where it is not known
 };
 /// The surface at a mark; nothing where there is none.
 using SurfaceHeightAt = std::function<std::optional<SurfaceHeight>(const ControlMark&)>;
+/// Open when none of at least three hits of the range finder within 1 m of the mark is on something that
+/// stands on the ground, vegetated when one is. Call for points that were cleaned with AboveGroundOptions;
+/// without, no hit says anything.
+[[nodiscard]] GroundCover coverAt(const ControlMark& mark, const std::vector<GroundPoint>& cleaned);
+
 /// Height of the surface at each mark. The sigma is that of the surface and of the mark.
 [[nodiscard]] MarkResiduals surfaceResiduals(const std::vector<ControlMark>& marks,
                                              const SurfaceHeightAt& surface_height, Stage stage,

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -35,6 +36,20 @@ class TriangleLocator {
     std::size_t columns_ = 0, rows_ = 0;
     std::vector<std::size_t> begins_;  ///< bucket b holds entries_[begins_[b]] to entries_[begins_[b + 1]]
     std::vector<std::uint32_t> entries_;
+};
+
+/// Makes the locator at the first question: only who asks for heights pays for it. Safe from any thread.
+class LocatorOnDemand {
+  public:
+    /// @param mesh  the same at each call
+    [[nodiscard]] const TriangleLocator& of(const TriangleMesh& mesh) const {
+        std::call_once(made_, [&] { locator_.emplace(mesh); });
+        return *locator_;
+    }
+
+  private:
+    mutable std::once_flag made_;
+    mutable std::optional<TriangleLocator> locator_;
 };
 
 }  // namespace terrawalk

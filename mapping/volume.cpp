@@ -23,8 +23,8 @@ double sphericalCorrelation(double distance_m, double range_m) {
     return share >= 1.0 ? 0.0 : 1.0 - share * (1.5 - 0.5 * share * share);
 }
 
-/// Sum over all pairs of blocks.
-double pairSum(const BlockSums& blocks, double range_m) {
+/// Sum over all pairs of blocks; of no meaning once stop is asked for.
+double pairSum(const BlockSums& blocks, double range_m, const std::stop_token& stop) {
     const auto reach = static_cast<std::int64_t>(range_m > 0.0 ? std::ceil(range_m / blocks.side_m) : 0.0);
     std::vector<double> correlation;
     for (std::int64_t dr = -reach; dr <= reach; ++dr) {
@@ -37,7 +37,7 @@ double pairSum(const BlockSums& blocks, double range_m) {
     double sum = 0.0;
     const auto rows = static_cast<std::int64_t>(blocks.rows);
     const auto columns = static_cast<std::int64_t>(blocks.columns);
-    for (std::int64_t row = 0; row < rows; ++row) {
+    for (std::int64_t row = 0; row < rows && !stop.stop_requested(); ++row) {
         for (std::int64_t column = 0; column < columns; ++column) {
             const double here = blocks.sums[static_cast<std::size_t>(row * columns + column)];
             if (here == 0.0) continue;
@@ -60,7 +60,8 @@ double pairSum(const BlockSums& blocks, double range_m) {
 /// One standard error of the sum over the cells that count.
 template <class Counts>
 double sigmaOf(const ElevationGrid& difference, const VolumeErrorModel& errors, std::size_t cells,
-               Counts counts) {
+               const std::stop_token& stop, Counts counts) {
+    if (stop.stop_requested()) return 0.0;
     const GridGeometry& g = difference.geometry;
     const std::size_t per_block = std::max<std::size_t>(
         1, static_cast<std::size_t>(errors.correlation_range_m / kBlocksPerRange / g.cell_m));
@@ -69,7 +70,7 @@ double sigmaOf(const ElevationGrid& difference, const VolumeErrorModel& errors, 
                      static_cast<double>(per_block) * g.cell_m,
                      {}};
     blocks.sums.assign(blocks.columns * blocks.rows, 0.0);
-    for (std::size_t row = 0; row < g.rows; ++row) {
+    for (std::size_t row = 0; row < g.rows && !stop.stop_requested(); ++row) {
         for (std::size_t column = 0; column < g.columns; ++column) {
             const std::size_t cell = row * g.columns + column;
             if (!counts(difference.heights_m[cell])) continue;
@@ -78,12 +79,14 @@ double sigmaOf(const ElevationGrid& difference, const VolumeErrorModel& errors, 
         }
     }
     const double common = errors.common_sigma_m * static_cast<double>(cells);
-    return g.cell_m * g.cell_m * std::sqrt(pairSum(blocks, errors.correlation_range_m) + common * common);
+    return g.cell_m * g.cell_m *
+           std::sqrt(pairSum(blocks, errors.correlation_range_m, stop) + common * common);
 }
 
 }  // namespace
 
-VolumeResult volumeOf(const ElevationGrid& difference, const VolumeErrorModel& errors) {
+Result<VolumeResult> volumeOf(const ElevationGrid& difference, const VolumeErrorModel& errors,
+                              const std::stop_token& stop) {
     assert(errors.sigmas_m.size() == 1 || errors.sigmas_m.size() == difference.heights_m.size());
     const double cell_area_m2 = difference.geometry.cell_m * difference.geometry.cell_m;
     VolumeResult result;
@@ -100,9 +103,11 @@ VolumeResult volumeOf(const ElevationGrid& difference, const VolumeErrorModel& e
     result.below.area_m2 = cell_area_m2 * static_cast<double>(below);
     result.area_m2 = cell_area_m2 * static_cast<double>(result.cells);
     result.net_m3 = result.above.volume_m3 - result.below.volume_m3;
-    result.above.sigma_m3 = sigmaOf(difference, errors, above, [](float h) { return h > 0.0F; });
-    result.below.sigma_m3 = sigmaOf(difference, errors, below, [](float h) { return h < 0.0F; });
-    result.net_sigma_m3 = sigmaOf(difference, errors, result.cells, [](float h) { return !std::isnan(h); });
+    result.above.sigma_m3 = sigmaOf(difference, errors, above, stop, [](float h) { return h > 0.0F; });
+    result.below.sigma_m3 = sigmaOf(difference, errors, below, stop, [](float h) { return h < 0.0F; });
+    result.net_sigma_m3 =
+        sigmaOf(difference, errors, result.cells, stop, [](float h) { return !std::isnan(h); });
+    if (stop.stop_requested()) return cancelled();
     return result;
 }
 

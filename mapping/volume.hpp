@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <stop_token>
 #include <vector>
 
 #include "survey/elevation_grid.hpp"
+#include "survey/result.hpp"
 
 namespace terrawalk {
 
@@ -37,9 +39,10 @@ struct VolumeResult {
 /// sigma_i sigma_j rho(distance), times area squared, and the common part; what it costs to know which cells
 /// lie above and which below is not in the two parts. Pairs are counted between square blocks of an eighth of
 /// the range (Journel and Huijbregts 1978, estimation variance of a block by discretization), which sees a
-/// little more correlation than there is. Pure; the same bits everywhere.
+/// little more correlation than there is. Pure; the same bits everywhere. Error: Cancelled.
 /// @param difference  heights less the reference; NaN where either is unknown
 /// @param errors      sigmas for one cell or for all, finite where the difference is
-[[nodiscard]] VolumeResult volumeOf(const ElevationGrid& difference, const VolumeErrorModel& errors);
+[[nodiscard]] Result<VolumeResult> volumeOf(const ElevationGrid& difference, const VolumeErrorModel& errors,
+                                            const std::stop_token& stop = {});
 
 }  // namespace terrawalk

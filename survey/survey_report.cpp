@@ -38,4 +38,16 @@ std::vector<CountedReason> leftOutByReason(const std::vector<GroundPoint>& point
     return reasons;
 }
 
+std::string_view name(GroundCover cover) {
+    switch (cover) {
+        case GroundCover::Unknown:
+            return "";
+        case GroundCover::Open:
+            return "open";
+        case GroundCover::Vegetated:
+            return "vegetated";
+    }
+    return {};
+}
+
 }  // namespace terrawalk

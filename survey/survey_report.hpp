@@ -20,8 +20,8 @@ struct ConfidenceInterval {
 };
 
 /// Error measures of n differences d = product - mark [m].
-/// Source: RMSE, mean, SD as in the ASPRS Positional Accuracy Standards, Edition 2; median and NMAD as in
-/// Hoehle and Hoehle 2009. SD needs n >= 2 and is absent below.
+/// Source: RMSE, mean, SD as in the ASPRS Positional Accuracy Standards, Edition 2; median, NMAD and the
+/// quantiles of |d| as in Hoehle and Hoehle 2009. SD needs n >= 2 and is absent below.
 struct ErrorStatistics {
     std::size_t n = 0;
     std::size_t marks = 0;  ///< different marks among the n; fewer than n where runs met on a mark
@@ -31,8 +31,11 @@ struct ErrorStatistics {
     double mae_m = 0.0;
     double median_m = 0.0;
     double nmad_m = 0.0;
-    double largest_m = 0.0;                     ///< the difference of greatest magnitude, with its sign
-    std::optional<ConfidenceInterval> rmse_95;  ///< bootstrap over the marks, seeded; needs 5 marks
+    double error68_m = 0.0;  ///< 68.3 % of the |d| are below
+    double error95_m = 0.0;  ///< 95 % are
+    double largest_m = 0.0;  ///< the difference of greatest magnitude, with its sign
+    /// 95 % intervals by bootstrap over the marks, seeded; they need 5 marks.
+    std::optional<ConfidenceInterval> rmse_95, median_95, nmad_95, error95_95;
 };
 
 enum class Stage {
@@ -51,6 +54,14 @@ enum class Quantity {
 [[nodiscard]] std::string_view name(Stage stage);
 [[nodiscard]] std::string_view name(Quantity quantity);
 
+/// What grows at a mark, as far as the ground points tell.
+enum class GroundCover {
+    Unknown,    ///< points were not looked through for plants, or too few lie near
+    Open,       ///< none near the mark is on a plant
+    Vegetated,  ///< some are
+};
+[[nodiscard]] std::string_view name(GroundCover cover);
+
 /// product - mark at one mark. Axes that were not measured are missing (NaN).
 struct Residual {
     Stage stage = Stage::Fused;
@@ -64,6 +75,9 @@ struct Residual {
         Eigen::Vector3d::Constant(kMissing);  ///< predicted, mark's own sigma included
     /// The estimator was tied to this mark here, or tuned on it, so it certifies nothing.
     bool used_by_estimator = false;
+    double slope = kMissing;  ///< of the surface at the mark, rise over run; missing without a surface
+    GroundCover cover = GroundCover::Unknown;
+    bool possible_blunder = false;  ///< stands out from its group; flagged and never left out
 };
 
 /// A comparison that was looked for and could not be made.
@@ -83,6 +97,24 @@ struct AccuracyGroup {
     MarkRole role = MarkRole::Check;
     std::optional<ErrorStatistics> east, north, up, horizontal;
     std::optional<SigmaCoverage> up_coverage;  ///< heights with a predicted sigma
+    /// Accuracy at 95 % confidence by the NSSDA (FGDC-STD-007.3-1998): vertical 1.9600 RMSE; horizontal from
+    /// the RMSE of both axes, nothing where these are too unequal.
+    std::optional<double> nssda_vertical_m, nssda_horizontal_m;
+};
+
+/// Heights of the headline group on one kind of ground.
+struct AccuracyStratum {
+    std::string name;  ///< e.g. "tread, slope below 10 %"
+    ErrorStatistics up;
+};
+
+/// Part of the height error that errors in plan make on slopes: sigma_V^2 observed is about
+/// sigma_V^2 + sigma_plan^2 slope^2.
+struct SlopeLeakage {
+    double plan_rmse_m = 0.0;  ///< along one axis, at the stands on marks
+    double rmse_m = 0.0;       ///< of plan error times slope, over the headline group's marks
+    double share = 0.0;        ///< of the group's mean square height error; may pass 1
+    std::size_t n = 0;         ///< heights with a slope
 };
 
 /// One of the few figures that a reader looks for first, ready to print.
@@ -233,6 +265,9 @@ struct SurveyReport {
     std::vector<MissingResidual> missing_residuals;
     std::vector<AccuracyGroup> accuracy;
     std::optional<std::size_t> headline;  ///< the group of `accuracy` that speaks for the product
+    std::vector<AccuracyStratum>
+        strata;  ///< of the headline group; none where slopes and cover are not known
+    std::optional<SlopeLeakage> slope_leakage;
     std::vector<KeyFigure> figures;
     std::vector<std::string> statements;   ///< what the marks say, in plain sentences
     std::vector<std::string> limitations;  ///< what could not be checked, in plain sentences

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <malloc.h>
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
@@ -6,6 +7,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <new>
 #include <optional>
 #include <ranges>
@@ -64,6 +66,7 @@ struct ProcessArguments {
     std::vector<std::string> settings;
     std::optional<std::string> method;
     std::optional<std::uint64_t> seed;
+    bool multiband = false;
     bool tune = false;
     TuneOptions tuning;
 };
@@ -138,6 +141,7 @@ void addConfiguration(CLI::App& command, ProcessArguments& arguments,
                         listed(kFusionMethodNames, [](const auto& pair) { return pair.second; }))
         ->option_text(fmt::format("NAME [{}]", name(method)));
     command.add_option("--seed", arguments.seed, "Short for --set seed=...");
+    command.add_flag("--multiband", arguments.multiband, "Short for --set surface.multiband=true");
 }
 
 // The file first, then single settings, so that the command line has the last word.
@@ -150,6 +154,7 @@ Result<PipelineConfig> configuration(const ProcessArguments& arguments) {
     std::vector<std::string> settings = arguments.settings;
     if (arguments.method) settings.push_back("fusion.method=" + *arguments.method);
     if (arguments.seed) settings.push_back(fmt::format("seed={}", *arguments.seed));
+    if (arguments.multiband) settings.emplace_back("surface.multiband=true");
     for (const std::string& setting : settings) {
         if (auto done = applySetting(config, setting); !done) return tl::unexpected(done.error());
     }
@@ -167,6 +172,7 @@ Provenance provenanceOf(const std::string& command, const ProcessArguments& argu
     for (const std::string& setting : arguments.settings) add("--set", setting);
     if (arguments.method) add("--method", *arguments.method);
     if (arguments.seed) add("--seed", std::to_string(*arguments.seed));
+    if (arguments.multiband) provenance.command.emplace_back("--multiband");
     if (arguments.tune) {
         provenance.command.emplace_back("--tune");
         const std::vector<std::string> options = tuneArguments(arguments.tuning);
@@ -505,6 +511,10 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     using namespace terrawalk;
+    // Large arrays come and go: given back to the system and taken again, each page costs a fault. Half the
+    // faults of a large surface are spared.
+    mallopt(M_MMAP_THRESHOLD, std::numeric_limits<int>::max());
+    mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
     int code = exitCode(ErrorKind::System);
     try {
         code = run(argc, argv);

@@ -68,6 +68,10 @@ void addSurfaceOptions(CLI::App& command, SurfaceRequest& r) {
         ->type_name("FILE");
     addChoice(command, "--terrace-edges", r.model.terrace_edges, kTerraceEdgeUses,
               "Whether risers of half a metre and more are found, for linear and clough-tocher to follow");
+    command.add_flag(
+        "--multiband", r.multiband,
+        "Write heights and standard errors in one file as well, bands in the order of BAG; kriging "
+        "has them");
     command.add_option("--longest-edge", r.model.longest_edge_m,
                        "Triangles with a longer edge count as gap and stay empty [from the points]");
     command.add_option("--crs", r.crs, "CRS of the points, e.g. EPSG:2994 [the file's own]");

@@ -58,7 +58,7 @@ Result<DemCoverage> measureDemCoverage(const SimulatedSurvey& simulated, const P
         true_m3 += (truth(cell) - mean_m) * g.cell_m * g.cell_m;
     }
     const VolumeResult volume =
-        volumeOf(above_plane, {.sigmas_m = sigmas, .correlation_range_m = error_range_m});
+        volumeOf(above_plane, {.sigmas_m = sigmas, .correlation_range_m = error_range_m}).value();
     coverage.volume_error_m3 = volume.net_m3 - true_m3;
     coverage.volume_sigma_m3 = volume.net_sigma_m3;
     coverage.area_m2 = volume.area_m2;

@@ -82,8 +82,10 @@ Result<DifferenceOutcome> compareDems(const DifferenceRequest& request, Progress
         change, stop);
     if (!sigmas) return tl::unexpected(sigmas.error());
     progress.report(0.4, "comparing");
-    const DemDifference d = demDifference(
-        later->grid, *earlier, {std::move(*sigmas), request.correlation_range, request.common_sigma});
+    auto compared = demDifference(
+        later->grid, *earlier, {std::move(*sigmas), request.correlation_range, request.common_sigma}, stop);
+    if (!compared) return tl::unexpected(compared.error());
+    const DemDifference& d = *compared;
     if (d.all.cells == 0) return badData("no cell has a height in both", request.later);
     if (stop.stop_requested()) return cancelled();
     DifferenceOutcome outcome{request, later->crs.unit.symbol, d.all, d.significant, d.raised, d.lowered, {}};

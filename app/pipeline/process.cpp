@@ -255,6 +255,18 @@ Result<Surface> makeSurface(const Survey& survey, const std::vector<GroundPoint>
     return Surface{std::move(*chosen), input.points_m.size(), std::move(*fitted), std::move(*choice)};
 }
 
+/// Rise over run between places half a metre to all sides: wide enough that a riser is one and a stone is
+/// not.
+double slopeAt(const SurfaceModel& surface, const Eigen::Vector3d& place) {
+    constexpr double kReach_m = 0.5;
+    const auto west = surface.heightAt(place.x() - kReach_m, place.y());
+    const auto east = surface.heightAt(place.x() + kReach_m, place.y());
+    const auto south = surface.heightAt(place.x(), place.y() - kReach_m);
+    const auto north = surface.heightAt(place.x(), place.y() + kReach_m);
+    if (!west || !east || !south || !north) return kMissing;
+    return std::hypot(*east - *west, *north - *south) / (2.0 * kReach_m);
+}
+
 /// Height of the surface at a mark, taken back from the map's height datum to the mark's.
 SurfaceHeightAt heightOf(const SurfaceModel& surface, const MapProjection& projection,
                          const GridGeometry* grid = nullptr,
@@ -266,6 +278,7 @@ SurfaceHeightAt heightOf(const SurfaceModel& surface, const MapProjection& proje
             const auto height_m = surface.heightAt(at->x(), at->y());
             if (!height_m) return std::nullopt;
             SurfaceHeight height{*height_m - at->z() + mark.enu_m.z()};
+            height.slope = slopeAt(surface, *at);
             const auto cell = uncertainty != nullptr ? grid->cellAt(at->x(), at->y()) : std::nullopt;
             if (cell) height.sigma_m = uncertainty->sigmas_m[*cell];
             return height;
@@ -509,9 +522,16 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
         products.uncertainty = std::move(uncertainty->cells);
     }
     const SurfaceUncertainty* const sigmas = products.uncertainty ? &*products.uncertainty : nullptr;
-    comparison->add(surfaceResiduals(survey.marks, heightOf(surface->model, *projection, &*geometry, sigmas),
-                                     Stage::Surface,
-                                     tied ? usedMarks(survey, config.fusion) : std::set<std::string>{}));
+    MarkResiduals at_marks =
+        surfaceResiduals(survey.marks, heightOf(surface->model, *projection, &*geometry, sigmas),
+                         Stage::Surface, tied ? usedMarks(survey, config.fusion) : std::set<std::string>{});
+    if (config.surface.cleaning.above_ground.use) {
+        for (Residual& residual : at_marks.residuals) {
+            const auto mark = survey.findMark(residual.mark);
+            if (mark) residual.cover = coverAt(*mark, surface->ground_points);
+        }
+    }
+    comparison->add(std::move(at_marks));
     products.terrace_edges = ground.terrace_edges;
 
     products.ground_points = std::move(surface->ground_points);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "app/pipeline/memory_need.hpp"
@@ -13,6 +14,7 @@
 #include "io/output_folder.hpp"
 #include "io/read_breaklines.hpp"
 #include "io/read_points.hpp"
+#include "io/write_exchange.hpp"
 #include "io/write_products.hpp"
 #include "mapping/gridding.hpp"
 #include "mapping/point_cleaning.hpp"
@@ -37,6 +39,18 @@ fs::path edgesFile(const SurfaceRequest& request) {
     return beside(request.output, "_terrace_edges.gpkg");
 }
 
+fs::path multibandFile(const SurfaceRequest& request) {
+    return beside(request.output, "_multiband.tif");
+}
+
+fs::path pointsFile(const SurfaceRequest& request) {
+    return beside(request.output, "_points.csv");
+}
+
+fs::path styleFile(const SurfaceRequest& request) {
+    return beside(request.output, ".qml");
+}
+
 fs::path reportFile(const SurfaceRequest& request) {
     return beside(request.output, ".json");
 }
@@ -44,7 +58,8 @@ fs::path reportFile(const SurfaceRequest& request) {
 Result<void> checkRequest(const SurfaceRequest& request) {
     for (const fs::path& input : {request.points, request.breaklines}) {
         for (const fs::path& output :
-             {request.output, uncertaintyFile(request), edgesFile(request), reportFile(request)}) {
+             {request.output, uncertaintyFile(request), multibandFile(request), edgesFile(request),
+              pointsFile(request), styleFile(request), reportFile(request)}) {
             std::error_code error;
             if (!fs::equivalent(input, output, error)) continue;
             return usageError(fmt::format("the output would replace {}", input.string()),
@@ -118,6 +133,10 @@ Result<void> cleanInput(const SurfaceRequest& request, double metres_per_unit, S
     if (!cleaned) return tl::unexpected(cleaned.error());
     points = thinGroundPoints(std::move(*cleaned), request.thinning_cell_m);
     report.points_left_out = leftOutByReason(points);
+    report.cleaned = MapPoints{{}, {}, report.crs.unit.symbol};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        report.cleaned->points.push_back({input.points_m[i], kMissing, 0.0, 0, points[i].state});
+    }
     SurfaceInput kept{{}, {}, std::move(input.breaklines)};
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (points[i].state != GroundPointState::Used) continue;
@@ -135,6 +154,16 @@ Result<GridGeometry> geometryOf(const SurfaceRequest& request, const GroundTrian
     if (!request.extent) return gridCovering(ground.mesh, cell);
     const auto& [west, south, east, north] = *request.extent;
     return gridCovering(GridExtent{west, south, east, north}, cell);
+}
+
+/// Points and surface end with this function: writing needs their memory.
+Result<InterpolatedGrid> gridOf(SurfaceInput input, GroundTriangles ground, const GridGeometry& geometry,
+                                InterpolationMethod method, const SurfaceModelOptions& options,
+                                Progress& progress, const std::stop_token& stop) {
+    PartialProgress fitting(progress, 0.0, 0.5), gridding(progress, 0.5, 1.0);
+    const auto surface = SurfaceModel::fit(input, std::move(ground), method, options, fitting, stop);
+    if (!surface) return tl::unexpected(surface.error());
+    return surface->grid(geometry, gridding, stop);
 }
 
 void summarize(const ElevationGrid& grid, SurfaceOutcome& report) {
@@ -161,8 +190,8 @@ void noteLeftOver(const fs::path& file, const std::string& reason, std::vector<s
     }
 }
 
-Result<void> writeFiles(const InterpolatedGrid& grid, const std::vector<TerraceEdge>& edges,
-                        SurfaceOutcome& report, const std::stop_token& stop) {
+Result<void> writeFiles(InterpolatedGrid grid, const std::vector<TerraceEdge>& edges, SurfaceOutcome& report,
+                        const std::stop_token& stop) {
     const SurfaceRequest& request = report.request;
     DemDescription description{.crs_wkt2 = report.crs.wkt2,
                                .vertical_datum = report.crs.vertical_datum,
@@ -172,16 +201,40 @@ Result<void> writeFiles(const InterpolatedGrid& grid, const std::vector<TerraceE
                                             {"POINTS", std::to_string(report.points_used)}},
                                .unit = report.crs.unit.symbol};
     report.files = {request.output};
-    if (auto done = writeDem(grid.heights, description, request.output, stop); !done) return done;
-    if (grid.variances_m2.empty()) {
+    std::optional<ElevationGrid> errors;
+    if (!grid.variances_m2.empty()) errors = standardErrors(grid);
+    if (request.multiband && errors) {
+        report.files.push_back(multibandFile(request));
+        if (auto done = writeDemWithUncertainty(grid.heights, errors->heights_m, description,
+                                                report.files.back(), stop);
+            !done) {
+            return done;
+        }
+    } else {
+        const std::string why = request.multiband
+                                    ? fmt::format("method {} gives no uncertainty", name(report.method))
+                                    : "it was not asked for";
+        if (request.multiband) report.notes.push_back("no multiband file: " + why + "; kriging does");
+        noteLeftOver(multibandFile(request), why, report.notes);
+    }
+    if (auto done = writeDem(std::move(grid.heights), description, request.output, stop); !done) return done;
+    if (auto done = writeHillshadeStyle(styleFile(request)); !done) return done;
+    report.files.push_back(styleFile(request));
+    if (!errors) {
         noteLeftOver(uncertaintyFile(request),
                      fmt::format("method {} gives no uncertainty", name(report.method)), report.notes);
     } else {
         description.quantity = "Standard error of kriging";
         description.title = fmt::format("{}, standard error", request.points.stem().string());
         report.files.push_back(uncertaintyFile(request));
-        if (auto done = writeDem(standardErrors(grid), description, report.files.back(), stop); !done)
+        if (auto done = writeDem(std::move(*errors), description, report.files.back(), stop); !done)
             return done;
+    }
+    if (report.cleaned) {
+        report.files.push_back(pointsFile(request));
+        if (auto done = writePointsCsv(*report.cleaned, report.files.back(), stop); !done) return done;
+    } else {
+        noteLeftOver(pointsFile(request), "no point was left out", report.notes);
     }
     if (edges.empty()) {
         noteLeftOver(edgesFile(request), "it keeps to no terrace edges", report.notes);
@@ -315,14 +368,13 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
     if (report.validation && ground->constrained) {
         report.notes.emplace_back("the cross-validation is of the points without the breaklines");
     }
-    PartialProgress fitting(progress, 0.7, 0.8), gridding(progress, 0.8, 0.9);
-    const auto surface = SurfaceModel::fit(input, std::move(*ground), report.method, model, fitting, stop);
-    if (!surface) return tl::unexpected(surface.error());
-    const auto grid = surface->grid(*geometry, gridding, stop);
+    const std::vector<TerraceEdge> edges = std::move(ground->terrace_edges);
+    PartialProgress fitting(progress, 0.7, 0.9);
+    auto grid = gridOf(std::move(input), std::move(*ground), *geometry, report.method, model, fitting, stop);
     if (!grid) return tl::unexpected(grid.error());
     summarize(grid->heights, report);
     progress.report(0.9, "writing");
-    if (auto done = writeFiles(*grid, surface->ground().terrace_edges, report, stop); !done)
+    if (auto done = writeFiles(std::move(*grid), edges, report, stop); !done)
         return tl::unexpected(done.error());
     progress.report(1.0, "done");
     return report;

@@ -9,6 +9,7 @@
 
 #include "app/pipeline/surface_model.hpp"
 #include "io/coordinate_system.hpp"
+#include "io/write_exchange.hpp"
 #include "mapping/cross_validation.hpp"
 #include "mapping/point_cleaning.hpp"
 #include "survey/elevation_grid.hpp"
@@ -30,6 +31,7 @@ struct SurfaceRequest {
     std::string crs;                              ///< where the file has none; empty: none
     std::string unit;                             ///< "m", "ft", "us-ft"; empty: by CRS or file, else metre
     std::vector<int> las_classes;
+    bool multiband = false;  ///< heights and their standard errors in one file as well
 };
 
 /// What was made, and how.
@@ -39,6 +41,7 @@ struct SurfaceOutcome {
     std::size_t points_in_file = 0;
     std::size_t points_used = 0;
     std::vector<CountedReason> points_left_out;  ///< by cleaning and thinning
+    std::optional<MapPoints> cleaned;            ///< every point, where there was cleaning or thinning
     std::size_t breaklines_used = 0;
     TerraceEdgeSummary terrace_edges;
     InterpolationMethod method = InterpolationMethod::Linear;
@@ -55,11 +58,13 @@ struct SurfaceOutcome {
 };
 
 /// Reads the points, judges the methods, grids, and writes OUTPUT, with kriging OUTPUT's stem +
-/// "_uncertainty.tif" (standard error), and OUTPUT's stem + ".json", the report. Cells outside the triangles
-/// within the longest edge stay empty, whatever the method. Without a method the first of the ranking is
-/// taken. Memory is told before the grid is made. Errors: as the steps; System when the memory does not
-/// suffice; Cancelled. Terrace edges that were found are written to OUTPUT's stem + "_terrace_edges.gpkg".
-/// Each file appears whole or not at all, the report last.
+/// "_uncertainty.tif" (standard error), and if asked for both in "_multiband.tif"; OUTPUT's stem + ".qml",
+/// how QGIS shows it; with cleaning or thinning "_points.csv", every point with the reason that left it out;
+/// and OUTPUT's stem + ".json", the report. Cells outside the triangles within the longest edge stay empty,
+/// whatever the method. Without a method the first of the ranking is taken. Memory is told before the grid is
+/// made. Errors: as the steps; System when the memory does not suffice; Cancelled. Terrace edges that were
+/// found are written to OUTPUT's stem + "_terrace_edges.gpkg". Each file appears whole or not at all, the
+/// report last.
 [[nodiscard]] Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& progress,
                                                  std::stop_token stop);
 

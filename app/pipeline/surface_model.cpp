@@ -96,9 +96,9 @@ Result<GroundTriangles> triangulateGround(const SurfaceInput& input, const Surfa
         lines.insert(lines.end(), soft.begin(), soft.end());
     }
     if (lines.empty()) {
-        const auto tin = DelaunayTin::build(input.points_m, {longest_edge_m}, triangulating, stop);
+        auto tin = triangulatePoints(input.points_m, {longest_edge_m}, triangulating, stop);
         if (!tin) return tl::unexpected(tin.error());
-        return GroundTriangles{tin->mesh(), tin->longestEdge_m(), tin->area_m2(), nullptr, {}, notes};
+        return GroundTriangles{std::move(tin->mesh), tin->longest_edge_m, tin->area_m2, nullptr, {}, notes};
     }
     auto ground = alongLines(input.points_m, lines, longest_edge_m, triangulating, stop);
     if (!ground) return ground;
@@ -135,7 +135,10 @@ Result<MethodChoice> chooseMethod(const SurfaceInput& input, const GroundTriangl
 
 SurfaceModel::SurfaceModel(GroundTriangles ground, InterpolationMethod method,
                            std::unique_ptr<const HeightInterpolator> heights)
-    : ground_(std::move(ground)), method_(method), heights_(std::move(heights)), locator_(ground_.mesh) {}
+    : ground_(std::move(ground)),
+      method_(method),
+      heights_(std::move(heights)),
+      locator_(std::make_unique<const LocatorOnDemand>()) {}
 
 Result<SurfaceModel> SurfaceModel::fit(const SurfaceInput& input, GroundTriangles ground,
                                        InterpolationMethod method, const SurfaceModelOptions& options,
@@ -149,7 +152,7 @@ Result<SurfaceModel> SurfaceModel::fit(const SurfaceInput& input, GroundTriangle
 }
 
 std::optional<double> SurfaceModel::heightAt(double x_m, double y_m) const {
-    const std::optional<double> linear_m = locator_.heightAt(ground_.mesh, x_m, y_m);
+    const std::optional<double> linear_m = locator_->of(ground_.mesh).heightAt(ground_.mesh, x_m, y_m);
     if (!linear_m || !heights_) return linear_m;
     const std::array<Eigen::Vector2d, 1> place{Eigen::Vector2d(x_m, y_m)};
     std::array<HeightEstimate, 1> estimate;

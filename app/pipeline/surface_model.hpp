@@ -101,7 +101,7 @@ class SurfaceModel {
     GroundTriangles ground_;
     InterpolationMethod method_;
     std::unique_ptr<const HeightInterpolator> heights_;  ///< null for linear: the triangles tell
-    TriangleLocator locator_;
+    std::unique_ptr<const LocatorOnDemand> locator_;
 };
 
 /// What the reports say of it.

@@ -54,7 +54,9 @@ Result<VolumeOutcome> measureVolume(const VolumeRequest& request, Progress& prog
     errors.correlation_range_m = request.correlation_range;
     errors.common_sigma_m = request.common_sigma;
     progress.report(0.6, "summing");
-    VolumeOutcome outcome{request, dem->crs.unit.symbol, volumeOf(difference, errors)};
+    const auto volume = volumeOf(difference, errors, stop);
+    if (!volume) return tl::unexpected(volume.error());
+    VolumeOutcome outcome{request, dem->crs.unit.symbol, *volume};
     if (outcome.volume.cells == 0) return badData("no cell has a height in both", request.dem);
     if (stop.stop_requested()) return cancelled();
     progress.report(1.0, "done");

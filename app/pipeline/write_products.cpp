@@ -171,6 +171,10 @@ Result<void> writeProducts(const Survey& survey, const Products& products, const
          [&](const fs::path& f) {
              return writeReportHtml(report, f);
          }},
+        {"report.pdf",
+         [&](const fs::path& f) {
+             return writeReportPdf(report, f);
+         }},
         {"figures.txt",
          [&](const fs::path& f) {
              return writeTextFile(summaryText(products), f);

@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -20,6 +22,7 @@
 #include "mapping/accuracy.hpp"
 #include "mapping/accuracy_statements.hpp"
 #include "tests/support/example_report.hpp"
+#include "tests/support/run_program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace terrawalk {
@@ -145,12 +148,212 @@ TEST(Report, CsvJsonAndPageTellTheSameNumbers) {
                                     no_negative_zero(metres("mean_m")), metres("sd_m"), metres("rmse_m"),
                                     threeDecimals(told["rmse_95_m"][0]) + " \u2026 " +
                                         threeDecimals(told["rmse_95_m"][1]),
-                                    metres("mae_m"), no_negative_zero(metres("median_m")), metres("nmad_m"),
-                                    metres("largest_m")))
+                                    metres("mae_m"), metres("largest_m")))
+                << id;
+            const auto interval = [&](const char* key) {
+                return no_negative_zero(threeDecimals(told[key][0])) + " \u2026 " +
+                       no_negative_zero(threeDecimals(told[key][1]));
+            };
+            EXPECT_THAT(htmlRow(html, id + "-robust"),
+                        ElementsAre(axis, no_negative_zero(metres("median_m")), interval("median_95_m"),
+                                    metres("nmad_m"), interval("nmad_95_m"), metres("error68_m"),
+                                    metres("error95_m"), interval("error95_95_m")))
                 << id;
         }
     }
     EXPECT_EQ(compared, 12U);  // up at check marks: 3; control: 3 heights and twice 3 axes
+}
+
+/// What the exported CSV says by definitions written down a second time, here: Hoehle and Hoehle 2009, the
+/// ASPRS standard and the NSSDA.
+struct Recomputed {
+    double mean = 0.0, sd = 0.0, rmse = 0.0, mae = 0.0, median = 0.0, nmad = 0.0, error68 = 0.0,
+           error95 = 0.0;
+
+    explicit Recomputed(std::vector<double> d) {
+        const auto n = static_cast<double>(d.size());
+        for (const double x : d) {
+            mean += x / n;
+            mae += std::fabs(x) / n;
+            rmse += x * x / n;
+        }
+        for (const double x : d) sd += (x - mean) * (x - mean) / (n - 1.0);
+        rmse = std::sqrt(rmse);
+        sd = std::sqrt(sd);
+        median = at(d, 0.5);
+        std::vector<double> sizes = d, distances = d;
+        for (double& x : sizes) x = std::fabs(x);
+        for (double& x : distances) x = std::fabs(x - median);
+        nmad = 1.4826 * at(distances, 0.5);
+        error68 = at(sizes, 0.683);
+        error95 = at(sizes, 0.95);
+    }
+    /// Between the order statistics at 0, 1/(n-1), 2/(n-1), ...
+    static double at(std::vector<double> values, double p) {
+        std::sort(values.begin(), values.end());
+        const double place = p * static_cast<double>(values.size() - 1);
+        const auto below = static_cast<std::size_t>(std::floor(place));
+        const double share = place - static_cast<double>(below);
+        return share == 0.0 ? values[below] : values[below] * (1.0 - share) + values[below + 1] * share;
+    }
+    void expectToldIn(const nlohmann::json& told) const {
+        constexpr double kCsvRounding = 2e-6;
+        for (const auto& [key, value] : std::map<std::string, double>{{"mean_m", mean},
+                                                                      {"sd_m", sd},
+                                                                      {"rmse_m", rmse},
+                                                                      {"mae_m", mae},
+                                                                      {"median_m", median},
+                                                                      {"nmad_m", nmad},
+                                                                      {"error68_m", error68},
+                                                                      {"error95_m", error95}}) {
+            EXPECT_NEAR(told.at(key), value, kCsvRounding) << key;
+        }
+        for (const char* interval : {"median_95_m", "nmad_95_m", "error95_95_m"}) {
+            if (told.at(interval).is_null()) continue;
+            EXPECT_LE(told.at(interval)[0], told.at(interval)[1]);
+        }
+    }
+};
+
+/// Surface heights at check marks on every kind of slope, some among plants, one blunder.
+SurveyReport reportWithSlopes() {
+    SurveyReport report = exampleReport({});
+    std::size_t i = 0;
+    for (Residual& r : report.residuals) {
+        if (r.stage != Stage::Surface) continue;
+        r.slope = 0.015 * static_cast<double>(i % 40);
+        r.cover = i % 3 == 0 ? GroundCover::Vegetated : i % 3 == 1 ? GroundCover::Open : GroundCover::Unknown;
+        if (i == 20) r.difference_enu_m.z() = 4.0;
+        ++i;
+    }
+    return withAccuracy(report);
+}
+
+TEST(Report, FiguresFollowFromTheExportedCsv) {
+    const SurveyReport report = reportWithSlopes();
+    const auto rows = rowsOf(residualsCsv(report.residuals));
+    const auto json = nlohmann::json::parse(reportJson(report));
+    const auto column = [&](const std::string& name) {
+        return static_cast<std::size_t>(std::find(rows[0].begin(), rows[0].end(), name) - rows[0].begin());
+    };
+    const std::size_t d_up = column("d_u_m"), slope = column("slope"), cover = column("cover"),
+                      used = column("used_by_estimator"), blunder = column("possible_blunder");
+    const auto counted = [&](const nlohmann::json& group, std::size_t axis) {
+        std::vector<double> d;
+        for (const auto& row : rows) {
+            if (row[0] == group.at("stage") && row[1] == group.at("quantity") && row[3] == group.at("role") &&
+                row[used] == "false" && !row[axis].empty()) {
+                d.push_back(number(row[axis]));
+            }
+        }
+        return d;
+    };
+    for (const auto& group : json.at("accuracy")) {
+        const Recomputed up(counted(group, d_up));
+        up.expectToldIn(group.at("up"));
+        EXPECT_NEAR(group.at("nssda_vertical_m"), 1.96 * up.rmse, 4e-6);
+        const auto east = counted(group, column("d_e_m")), north = counted(group, column("d_n_m"));
+        if (east.empty()) {
+            EXPECT_TRUE(group.at("nssda_horizontal_m").is_null());
+            continue;
+        }
+        const double x = Recomputed(east).rmse, y = Recomputed(north).rmse;
+        if (std::min(x, y) / std::max(x, y) >= 0.6) {
+            EXPECT_NEAR(group.at("nssda_horizontal_m"), 2.4477 * 0.5 * (x + y), 1e-5);
+        } else {
+            EXPECT_TRUE(group.at("nssda_horizontal_m").is_null());
+        }
+    }
+
+    std::map<std::string, std::vector<double>> strata;
+    std::vector<std::pair<double, double>> sloping;  // slope, difference
+    std::size_t flagged = 0;
+    for (const auto& row : rows) {
+        if (row[0] != "surface" || row[3] != "check" || row[used] != "false") continue;
+        const double s = number(row[slope]), d = number(row[d_up]);
+        strata[s < 0.1   ? "tread, slope below 10 %"
+               : s < 0.3 ? "slope of 10 to 30 %"
+                         : "riser, slope of 30 % and more"]
+            .push_back(d);
+        if (!row[cover].empty()) strata[row[cover]].push_back(d);
+        sloping.emplace_back(s, d);
+        if (row[blunder] == "true") {
+            ++flagged;
+            EXPECT_EQ(d, 4.0);
+        }
+    }
+    EXPECT_EQ(flagged, 1U);
+    ASSERT_EQ(json.at("strata").size(), 5U);
+    for (const auto& stratum : json.at("strata")) {
+        ASSERT_TRUE(strata.contains(stratum.at("name"))) << stratum.at("name");
+        const auto& d = strata.at(stratum.at("name"));
+        EXPECT_EQ(stratum.at("up").at("n"), d.size());
+        Recomputed(d).expectToldIn(stratum.at("up"));
+    }
+
+    // The stands of this survey are on control marks only.
+    double plan = 0.0, leaked = 0.0, all = 0.0;
+    for (const char* axis : {"d_e_m", "d_n_m"}) {
+        plan += 0.5 * std::pow(Recomputed(counted({{"stage", "fused"},
+                                                   {"quantity", std::string(name(Quantity::ArrayPosition))},
+                                                   {"role", "control"}},
+                                                  column(axis)))
+                                   .rmse,
+                               2.0);
+    }
+    for (const auto& [s, d] : sloping) {
+        leaked += plan * s * s;
+        all += d * d;
+    }
+    const auto& leakage = json.at("slope_leakage");
+    EXPECT_NEAR(leakage.at("plan_rmse_m"), std::sqrt(plan), 2e-6);
+    EXPECT_NEAR(leakage.at("rmse_m"), std::sqrt(leaked / static_cast<double>(sloping.size())), 2e-6);
+    EXPECT_NEAR(leakage.at("share"), leaked / all, 1e-5);
+}
+
+std::string withoutBlanks(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        if (c != ' ' && c != '\n' && c != '\f') out += c;
+    }
+    return out;
+}
+
+TEST(ReportPdf, SaysWhatThePageSays) {
+    const SurveyReport report = reportWithSlopes();
+    const test::TemporaryFolder folder;
+    ASSERT_TRUE(writeReportPdf(report, folder / "report.pdf"));
+    const auto read =
+        test::runProgram({"/usr/bin/pdftotext", "-layout", (folder / "report.pdf").string(), "-"});
+    ASSERT_EQ(read.exit_code, 0) << read.err;
+    const std::string text = withoutBlanks(read.out);
+    for (const KeyFigure& figure : report.figures) {
+        EXPECT_THAT(text, HasSubstr(withoutBlanks(figure.value)));
+    }
+    // Every error measure of the page, row by row. (Sentences that run over two pages have a page's foot
+    // between.)
+    const std::string html = reportHtml(report);
+    static const std::regex anchor("<tr id=\"([^\"]+)\">");
+    std::size_t measured = 0;
+    for (std::sregex_iterator it(html.begin(), html.end(), anchor), end; it != end; ++it) {
+        std::string row;
+        for (const std::string& cell : htmlRow(html, (*it)[1].str())) row += cell;
+        row = withoutBlanks(std::regex_replace(row, std::regex("-"), "\u2212"));
+        EXPECT_THAT(text, HasSubstr(row)) << (*it)[1].str();
+        ++measured;
+    }
+    EXPECT_GT(measured, 20U);
+}
+
+TEST(ReportPdf, IsTheSameBytesTwiceAndWhateverTheSurveyHolds) {
+    EXPECT_EQ(reportPdf(madeReport()).value(), reportPdf(madeReport()).value());
+    for (const SurveyReport& report :
+         {SurveyReport{}, withAccuracy({}), madeReport({.check_marks = 0}),
+          madeReport({.fixed_point_runs = 1, .area_epochs = 0, .check_marks = 1, .control_marks = 0})}) {
+        const auto pdf = reportPdf(report);
+        ASSERT_TRUE(pdf) << pdf.error().text();
+        EXPECT_THAT(*pdf, StartsWith("%PDF-"));
+    }
 }
 
 TEST(Report, FirstFigureIsThatOfTheTable) {
@@ -333,10 +536,10 @@ TEST(ReportJson, KeysStandInTheirOrderAndMissingIsNull) {
     const auto json = nlohmann::ordered_json::parse(reportJson(report));
     std::vector<std::string> keys;
     for (const auto& [key, value] : json.items()) keys.push_back(key);
-    EXPECT_THAT(
-        keys, ElementsAre("format", "survey", "program_version", "method", "seed", "figures", "statements",
-                          "limitations", "warnings", "headline", "accuracy", "residuals", "missing_residuals",
-                          "marks", "adjustment", "surface", "runs", "tuning", "settings", "inputs"));
+    EXPECT_THAT(keys, ElementsAre("format", "survey", "program_version", "method", "seed", "figures",
+                                  "statements", "limitations", "warnings", "headline", "accuracy", "strata",
+                                  "slope_leakage", "residuals", "missing_residuals", "marks", "adjustment",
+                                  "surface", "runs", "tuning", "settings", "inputs"));
     EXPECT_TRUE(json["tuning"].is_null());
     EXPECT_EQ(json["format"], "terrawalk-report 1");
     EXPECT_TRUE(json["residuals"][0]["difference_enu_m"][0].is_null());
@@ -400,10 +603,10 @@ TEST(ResidualsCsv, QuotesNamesAndLeavesMissingEmpty) {
     EXPECT_EQ(residualsCsv({r}),
               "stage,quantity,mark,role,run,mark_e_m,mark_n_m,mark_u_m,d_e_m,d_n_m,d_u_m,sigma_e_m,sigma_n_m,"
               "sigma_u_m,"
-              "used_by_estimator\n"
+              "used_by_estimator,slope,cover,possible_blunder\n"
               "fused,surface height,\"P \"\"1\"\", "
               "north\",check,\"two\nlines\",1.000000,-2.500000,0.000000,,,0.000000,,,,"
-              "true\n");
+              "true,,,false\n");
 }
 
 // ---------------------------------------------------------------------------------------------- text and

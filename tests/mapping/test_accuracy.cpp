@@ -296,6 +296,65 @@ TEST(Statements, PointOutABlunderAndABias) {
     EXPECT_THAT(withAccuracy(report).statements, Not(Contains(HasSubstr("blunder"))));
 }
 
+TEST(Nssda, HasTheConstantsOfTheStandard) {
+    // FGDC-STD-007.3-1998, appendix 3-A. A gist in circulation has 1.7808.
+    EXPECT_NEAR(nssdaVertical_m(0.1), 0.196, 1e-12);
+    EXPECT_NEAR(*nssdaHorizontal_m(1.0, 1.0), 1.7308 * std::sqrt(2.0), 1e-12);
+    EXPECT_NEAR(*nssdaHorizontal_m(1.0, 1.0), 2.4477, 5e-5);
+    EXPECT_NEAR(*nssdaHorizontal_m(0.6, 1.0), 2.4477 * 0.8, 1e-12);
+    EXPECT_NEAR(*nssdaHorizontal_m(1.0, 0.8), 2.4477 * 0.9, 1e-12);
+    EXPECT_FALSE(nssdaHorizontal_m(0.59, 1.0));
+}
+
+TEST(Nssda, IsStatedOfTwentyCheckMarksAndMore) {
+    for (const int n : {19, 20}) {
+        SurveyReport report;
+        for (int i = 0; i < n; ++i) {
+            const std::string mark = fmt::format("K{}", i);
+            report.marks.push_back({mark, {0, 0, 0}, 0.0, 0.0, MarkRole::Check});
+            report.residuals.push_back(heightResidual(mark, i % 2 == 0 ? 0.1 : -0.1));
+        }
+        const std::string tested = "Tested 0.196 m vertical accuracy at 95 % confidence level";
+        EXPECT_EQ(testing::Matches(Contains(HasSubstr(tested)))(withAccuracy(report).statements), n == 20);
+        EXPECT_THAT(withAccuracy(report).statements, Contains(HasSubstr("0.196 m vertical accuracy")));
+    }
+}
+
+TEST(Blunders, OneIsFlaggedInASmallGroupAndStillCounted) {
+    // In a group of six no difference can pass 3 times an RMSE that it belongs to: sqrt(6) < 3.
+    std::vector<Residual> residuals;
+    for (int i = 0; i < 6; ++i) {
+        residuals.push_back(heightResidual(fmt::format("K{}", i), i == 2 ? 2.0 : i % 2 == 0 ? 0.1 : -0.1));
+    }
+    const auto flagged = withBlundersFlagged(residuals);
+    for (const Residual& r : flagged) EXPECT_EQ(r.possible_blunder, r.mark == "K2") << r.mark;
+    EXPECT_EQ(accuracyGroups(flagged, 1).front().up->n, 6U);
+    residuals.resize(4);
+    for (const Residual& r : withBlundersFlagged(residuals)) EXPECT_FALSE(r.possible_blunder);
+}
+
+TEST(SlopeLeakage, IsPlanErrorTimesSlope) {
+    std::vector<Residual> residuals;
+    for (int i = 0; i < 10; ++i) {
+        Residual stand = heightResidual(fmt::format("K{}", i), 0.0, MarkRole::Check, Stage::Fused,
+                                        Quantity::ArrayPosition);
+        stand.difference_enu_m = {i % 2 == 0 ? 0.3 : -0.3, i % 2 == 0 ? -0.4 : 0.4, 0.0};
+        residuals.push_back(stand);
+        residuals.push_back(heightResidual(stand.mark, 0.5));
+        residuals.back().slope = 0.4;
+    }
+    const auto groups = accuracyGroups(residuals, 1);
+    const AccuracyGroup& surface = groups.at(*headlineGroup(groups));
+    const auto leakage = slopeLeakage(residuals, groups, surface);
+    ASSERT_TRUE(leakage);
+    const double plan_m = std::sqrt((0.09 + 0.16) / 2.0);
+    EXPECT_NEAR(leakage->plan_rmse_m, plan_m, 1e-12);
+    EXPECT_NEAR(leakage->rmse_m, 0.4 * plan_m, 1e-12);
+    EXPECT_NEAR(leakage->share, std::pow(0.4 * plan_m / 0.5, 2.0), 1e-12);
+    for (Residual& r : residuals) r.slope = kMissing;
+    EXPECT_FALSE(slopeLeakage(residuals, groups, surface));
+}
+
 TEST(Statements, TiedComparisonsAreNamedAsNotCounted) {
     SurveyReport report = exampleReport({});
     report.residuals.front().used_by_estimator = true;

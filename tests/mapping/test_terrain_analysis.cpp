@@ -289,7 +289,7 @@ TEST(DemDifference, MarksChangeBeyondItsSigmaAlone) {
     const GridGeometry geometry{0.0, 2.0, 1.0, 3, 2};
     const ElevationGrid later{geometry, {1.0F, 1.3F, 0.6F, 1.1F, kNoHeight, 1.5F}};
     const ElevationGrid earlier{geometry, {1.0F, 1.0F, 1.0F, 1.0F, 1.0F, kNoHeight}};
-    const DemDifference d = demDifference(later, earlier, {{0.1F}, 0.0, 0.0});
+    const DemDifference d = demDifference(later, earlier, {{0.1F}, 0.0, 0.0}).value();
     EXPECT_THAT(std::vector<float>(d.significance.heights_m.begin(), d.significance.heights_m.begin() + 4),
                 testing::ElementsAre(0.0F, 1.0F, -1.0F, 0.0F));
     EXPECT_TRUE(std::isnan(d.significance.heights_m[4]));
@@ -301,7 +301,7 @@ TEST(DemDifference, MarksChangeBeyondItsSigmaAlone) {
     EXPECT_NEAR(d.significant.net_m3, -0.1, 1e-6);
     EXPECT_NEAR(d.significant.net_sigma_m3, 0.1 * std::sqrt(2.0), 1e-7);
     // A shared error makes every cell less sure.
-    EXPECT_EQ(demDifference(later, earlier, {{0.1F}, 0.0, 0.2}).raised, 0U);
+    EXPECT_EQ(demDifference(later, earlier, {{0.1F}, 0.0, 0.2}).value().raised, 0U);
 }
 
 TEST(DemDifference, OneUnchangedCellInTwentyIsMarkedWrongly) {
@@ -309,7 +309,8 @@ TEST(DemDifference, OneUnchangedCellInTwentyIsMarkedWrongly) {
     std::normal_distribution<double> noise(0.0, 0.05);
     const ElevationGrid earlier = gridOf(200, 200, 1.0, [&](double, double) { return noise(random); });
     const ElevationGrid later = gridOf(200, 200, 1.0, [&](double, double) { return noise(random); });
-    const auto d = demDifference(later, earlier, {{static_cast<float>(std::sqrt(2.0) * 0.05)}, 0.0, 0.0});
+    const auto d =
+        demDifference(later, earlier, {{static_cast<float>(std::sqrt(2.0) * 0.05)}, 0.0, 0.0}).value();
     // 5 % of 40000, four sigma of a binomial wide.
     EXPECT_NEAR(static_cast<double>(d.raised + d.lowered), 2000.0, 4.0 * std::sqrt(40000 * 0.05 * 0.95));
 }

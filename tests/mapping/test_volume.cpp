@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include <cmath>
 
 #include "mapping/volume.hpp"
@@ -15,7 +18,7 @@ ElevationGrid level(std::size_t columns, std::size_t rows, double cell_m, float 
 TEST(Volume, PartsAddUpAndUnknownCellsCountForNothing) {
     ElevationGrid grid = level(4, 1, 2.0, 0.0F);
     grid.heights_m = {1.5F, -0.5F, kNoHeight, 0.0F};
-    const VolumeResult result = volumeOf(grid, {});
+    const VolumeResult result = volumeOf(grid, {}).value();
     EXPECT_DOUBLE_EQ(result.above.volume_m3, 6.0);
     EXPECT_DOUBLE_EQ(result.below.volume_m3, 2.0);
     EXPECT_DOUBLE_EQ(result.net_m3, 4.0);
@@ -27,9 +30,9 @@ TEST(Volume, PartsAddUpAndUnknownCellsCountForNothing) {
 
 TEST(Volume, IndependentErrorsGrowWithTheRootCommonOnesWithTheCount) {
     const ElevationGrid grid = level(20, 30, 0.5, 1.0F);
-    EXPECT_NEAR(volumeOf(grid, {{0.1F}, 0.0, 0.0}).net_sigma_m3, 0.25 * 0.1 * std::sqrt(600.0), 1e-7);
-    EXPECT_NEAR(volumeOf(grid, {{0.0F}, 0.0, 0.02}).net_sigma_m3, 0.25 * 0.02 * 600.0, 1e-9);
-    EXPECT_NEAR(volumeOf(grid, {{0.1F}, 0.0, 0.02}).net_sigma_m3,
+    EXPECT_NEAR(volumeOf(grid, {{0.1F}, 0.0, 0.0}).value().net_sigma_m3, 0.25 * 0.1 * std::sqrt(600.0), 1e-7);
+    EXPECT_NEAR(volumeOf(grid, {{0.0F}, 0.0, 0.02}).value().net_sigma_m3, 0.25 * 0.02 * 600.0, 1e-9);
+    EXPECT_NEAR(volumeOf(grid, {{0.1F}, 0.0, 0.02}).value().net_sigma_m3,
                 0.25 * std::hypot(0.1 * std::sqrt(600.0), 0.02 * 600.0), 1e-7);
 }
 
@@ -55,10 +58,10 @@ TEST(Volume, CountsEveryPairOfCorrelatedCells) {
         sigmas.push_back(static_cast<float>(random.uniform(0.05, 0.15)));
     }
     // Up to eight cells a block is one cell: exact.
-    EXPECT_NEAR(volumeOf(grid, {sigmas, 3.0, 0.0}).net_sigma_m3, byAllPairs(grid, sigmas, 3.0), 1e-9);
+    EXPECT_NEAR(volumeOf(grid, {sigmas, 3.0, 0.0}).value().net_sigma_m3, byAllPairs(grid, sigmas, 3.0), 1e-9);
     // Larger blocks see a little more correlation, never less.
     const double exact = byAllPairs(grid, sigmas, 16.0);
-    const double blocked = volumeOf(grid, {sigmas, 16.0, 0.0}).net_sigma_m3;
+    const double blocked = volumeOf(grid, {sigmas, 16.0, 0.0}).value().net_sigma_m3;
     EXPECT_GT(blocked, 0.999 * exact);
     EXPECT_LT(blocked, 1.03 * exact);
 }
@@ -73,11 +76,27 @@ TEST(Volume, ErrorBarsHoldTheTrueVolume) {
         const double common = 0.01 * random.normal();
         for (float& height : grid.heights_m)
             height = static_cast<float>(2.0 + common + 0.1 * random.normal());
-        const VolumeResult result = volumeOf(grid, {{0.1F}, 0.0, 0.01});
+        const VolumeResult result = volumeOf(grid, {{0.1F}, 0.0, 0.01}).value();
         held += std::abs(result.net_m3 - 300.0) <= 1.96 * result.net_sigma_m3 ? 1 : 0;
     }
     // Binomial: 0.95 within four standard deviations of 0.0069.
     EXPECT_NEAR(held / static_cast<double>(kTrials), 0.95, 0.028);
+}
+
+TEST(Volume, StopsWithinASecondOnTenMillionCells) {
+    // The dearest case: blocks of one cell, each with the three hundred around it.
+    ElevationGrid grid{{0.0, 0.0, 1.0, 3200, 3200}, std::vector<float>(3200 * 3200, 1.0F)};
+    std::stop_source stop;
+    const auto start = std::chrono::steady_clock::now();
+    std::jthread later([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        stop.request_stop();
+    });
+    const auto result = volumeOf(grid, {{0.1F}, 8.0, 0.0}, stop.get_token());
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    ASSERT_FALSE(result) << "it was done before it could be stopped: " << took.count() << " s";
+    EXPECT_EQ(result.error().kind, ErrorKind::Cancelled);
+    EXPECT_LT(took.count(), 1.3);
 }
 
 }  // namespace

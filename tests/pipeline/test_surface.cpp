@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,7 @@
 #include "app/pipeline/surface.hpp"
 #include "app/pipeline/volume_job.hpp"
 #include "io/read_breaklines.hpp"
+#include "io/read_dem.hpp"
 #include "tests/support/random_numbers.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -61,6 +63,36 @@ TEST(Surface, WritesTheDemAndTheReportBesideIt) {
     EXPECT_EQ(report.at("cross_validation").at("ranking").size(), 2u);
     EXPECT_TRUE(std::filesystem::exists(folder / "dem.tif"));
     EXPECT_FALSE(std::filesystem::exists(folder / "dem_uncertainty.tif"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "dem_points.csv"));
+    EXPECT_THAT(bytesOf(folder / "dem.qml"), HasSubstr("hillshade"));
+}
+
+TEST(Surface, PutsHeightsAndErrorsInOneFileWhereKrigingHasThem) {
+    const TemporaryFolder folder;
+    writePlane(folder / "plane.csv", "x_m,y_m,z_m", 150);
+    SurfaceRequest request;
+    request.points = folder / "plane.csv";
+    request.output = folder / "dem.tif";
+    request.resolution = 2.0;
+    request.multiband = true;
+    request.model.cross_validate = false;
+    request.model.method = InterpolationMethod::Linear;
+    const auto linear = surfaceOf(request);
+    ASSERT_TRUE(linear) << linear.error().text();
+    EXPECT_THAT(linear->notes, Contains(HasSubstr("no multiband file")));
+    EXPECT_FALSE(std::filesystem::exists(folder / "dem_multiband.tif"));
+    request.model.method = InterpolationMethod::Kriging;
+    const auto kriging = surfaceOf(request);
+    ASSERT_TRUE(kriging) << kriging.error().text();
+    ASSERT_THAT(kriging->files, Contains(folder / "dem_multiband.tif"));
+    // Its first band is the DEM's.
+    const auto both = readDem(folder / "dem_multiband.tif", {}), alone = readDem(folder / "dem.tif", {});
+    ASSERT_TRUE(both && alone);
+    ASSERT_EQ(both->grid.geometry, alone->grid.geometry);
+    for (std::size_t i = 0; i < alone->grid.heights_m.size(); ++i) {
+        if (std::isnan(alone->grid.heights_m[i])) continue;
+        EXPECT_EQ(both->grid.heights_m[i], alone->grid.heights_m[i]);
+    }
 }
 
 TEST(Surface, ChoosesByCrossValidationAndGivesTheSameBytesAgain) {
@@ -247,6 +279,11 @@ TEST(Surface, CleansAndThinsPointsInTheirOwnUnit) {
     ASSERT_EQ(cleaned->points_left_out.size(), 1u);
     EXPECT_EQ(cleaned->points_left_out.front().reason, "isolated");
     EXPECT_LT(cleaned->greatest_height, 15.0);
+    ASSERT_THAT(cleaned->files, Contains(folder / "dem_points.csv"));
+    const std::string points = bytesOf(folder / "dem_points.csv");
+    EXPECT_TRUE(points.starts_with("x_ft,y_ft,z_ft,used,reason\n"));
+    EXPECT_THAT(points, HasSubstr("500020.0000,2500015.0000,90.0000,0,isolated\n"));
+    EXPECT_EQ(std::count(points.begin(), points.end(), '\n'), 402) << "a header and every point";
     request.thinning_cell_m = 10.0 * 0.3048;
     const auto thinned = surfaceOf(request);
     ASSERT_TRUE(thinned);

@@ -61,6 +61,10 @@ ProgramOutcome runProgram(const std::vector<std::string>& command,
     outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
     if (WIFSIGNALED(status)) outcome.signal = WTERMSIG(status);
+    const auto secondsOf = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    outcome.cpu_seconds = secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
     outcome.peak_memory_kib = usage.ru_maxrss;
     outcome.out = takeFile(out_file);
     outcome.err = takeFile(err_file);

@@ -14,6 +14,7 @@ struct ProgramOutcome {
     std::string out;
     std::string err;
     double seconds = 0.0;
+    double cpu_seconds = 0.0;  ///< user and system, of all its threads
     long peak_memory_kib = 0;
 };
 
