@@ -35,6 +35,7 @@
 #include "app/gui/plots_view.hpp"
 #include "app/gui/profile_plot.hpp"
 #include "app/gui/recent_surveys.hpp"
+#include "app/gui/report_view.hpp"
 #include "app/gui/shortcuts_dialog.hpp"
 #include "app/gui/start_page.hpp"
 #include "app/gui/steps_panel.hpp"
@@ -126,6 +127,13 @@ void MainWindow::buildViews() {
     views_->addTab(terrain_, tr("3-D"));
     views_->addTab(plots_, tr("Plots"));
     views_->addTab(accuracy_, tr("Accuracy"));
+    views_->addTab(report_, tr("Report"));
+    report_ = new ReportView;
+    report_->setObjectName("report");
+    connect(report_, &ReportView::failed, this,
+            [this](const QString& problem) { say(MessageKind::Error, problem); });
+    connect(report_, &ReportView::saved, this,
+            [this](const QString& path) { say(MessageKind::Done, tr("Saved to %1.").arg(path)); });
     start_ = new StartPage;
     pages_ = new QStackedWidget;
     pages_->addWidget(start_);
@@ -445,6 +453,7 @@ void MainWindow::showProducts() {
     terrain_->show(survey, session_.map(), session_.products());
     plots_->show(survey, session_.map(), session_.products());
     accuracy_->show(session_.products());
+    report_->show(session_.products());
     place_->clear();
     showTree();
     enableActions();
@@ -605,6 +614,7 @@ void MainWindow::setTheme(Theme theme) {
     terrain_->themeChanged();
     plots_->themeChanged();
     profile_->themeChanged();
+    report_->themeChanged();
     message_model_.themeChanged();
     steps_->themeChanged();
     accuracy_->show(session_.products());
@@ -619,7 +629,8 @@ void MainWindow::themeIcons() {
     const std::pair<int, const char*> tabs[] = {{views_->indexOf(map_), "map"},
                                                 {views_->indexOf(terrain_), "terrain_3d"},
                                                 {views_->indexOf(plots_), "plots"},
-                                                {views_->indexOf(accuracy_), "accuracy"}};
+                                                {views_->indexOf(accuracy_), "accuracy"},
+                                                {views_->indexOf(report_), "report"}};
     for (const auto& [tab, name] : tabs) views_->setTabIcon(tab, icon(name));
 }
 

@@ -25,6 +25,7 @@ class PlacePanel;
 class PlotCanvas;
 class PlotsView;
 class TerrainView;
+class ReportView;
 class StartPage;
 class StepsPanel;
 
@@ -104,6 +105,7 @@ class MainWindow : public QMainWindow {
     PlotCanvas* profile_ = nullptr;
     QDockWidget* profile_dock_ = nullptr;
     AccuracyPanel* accuracy_ = nullptr;
+    ReportView* report_ = nullptr;
     PlacePanel* place_ = nullptr;
     StepsPanel* steps_ = nullptr;
     QTreeView* tree_ = nullptr;

@@ -1080,6 +1080,14 @@
             <source>Process the survey first: a profile needs a surface.</source>
             <translation>请先处理测量：剖面需要曲面。</translation>
         </message>
+        <message>
+            <source>Report</source>
+            <translation>报告</translation>
+        </message>
+        <message>
+            <source>Saved to %1.</source>
+            <translation>已保存到 %1。</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::MapPanel</name>
@@ -1502,6 +1510,45 @@
         <message>
             <source>Selects the track five seconds before and after the nearest sample, in all views.</source>
             <translation>在所有视图中选择最近样点前后五秒的轨迹。</translation>
+        </message>
+    </context>
+    <context>
+        <name>terrawalk::gui::ReportView</name>
+        <message>
+            <source>Report</source>
+            <translation>报告</translation>
+        </message>
+        <message>
+            <source>Save as PDF…</source>
+            <translation>另存为 PDF…</translation>
+        </message>
+        <message>
+            <source>Print…</source>
+            <translation>打印…</translation>
+        </message>
+        <message>
+            <source>The report cannot be drawn.</source>
+            <translation>报告无法显示。</translation>
+        </message>
+        <message>
+            <source>The report is being made ready…</source>
+            <translation>正在准备报告…</translation>
+        </message>
+        <message>
+            <source>No report yet. Process the survey: what it says to its client will stand here.</source>
+            <translation>尚无报告。处理测量后，给客户的报告将显示在这里。</translation>
+        </message>
+        <message>
+            <source>%1: cannot be written (%2)</source>
+            <translation>%1：无法写入（%2）</translation>
+        </message>
+        <message>
+            <source>Save the report</source>
+            <translation>保存报告</translation>
+        </message>
+        <message>
+            <source>PDF (*.pdf)</source>
+            <translation>PDF (*.pdf)</translation>
         </message>
     </context>
     <context>

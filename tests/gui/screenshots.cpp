@@ -100,7 +100,7 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
     camera.shoot("edits");
     for (int tab = 1; tab < views->count(); ++tab) {
         views->setCurrentIndex(tab);
-        QTest::qWait(300);
+        QTest::qWait(tab == 1 || tab == 4 ? 2500 : 300);
         camera.shoot(QString("view%1").arg(tab));
     }
     views->setCurrentIndex(0);

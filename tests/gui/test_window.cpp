@@ -6,6 +6,7 @@
 #include <QLineEdit>
 #include <QListView>
 #include <QMimeData>
+#include <QPrinter>
 #include <QProcess>
 #include <QProgressBar>
 #include <QPushButton>
@@ -23,6 +24,7 @@
 #include "app/gui/export_dialog.hpp"
 #include "app/gui/language.hpp"
 #include "app/gui/plot_canvas.hpp"
+#include "app/gui/report_view.hpp"
 #include "app/gui/start_page.hpp"
 #include "app/gui/theme.hpp"
 
@@ -57,6 +59,7 @@ class WindowTest : public QObject {
     void stretchIsExcludedByDraggingAlongATrackAndUndoBringsItBack();
     void breaklineIsDrawnByClicksAndHoldsTheSurface();
     void profileShowsHeightsAlongALine();
+    void reportIsShownSavedAndPrinted();
     void settingsAreCheckedAndUndone();
     void cancelStopsSoonAndKeepsWhatWasThere();
     void windowAnswersWhileItWorks();
@@ -242,6 +245,26 @@ void WindowTest::profileShowsHeightsAlongALine() {
     const auto& report = session().products()->report.surface;
     for (const double height : line.y)
         QVERIFY(std::isnan(height) || (height >= report.lowest_m && height <= report.highest_m));
+}
+
+void WindowTest::reportIsShownSavedAndPrinted() {
+    processed();
+    auto* report = window_->findChild<ReportView*>("report");
+    window_->findChild<QTabWidget*>("views")->setCurrentWidget(report);
+    QTRY_VERIFY_WITH_TIMEOUT(report->pages() > 0, kLong_ms);
+    QVERIFY(report->saveTo(scratch_->filePath("report.pdf")));
+    QVERIFY(bytesOf(scratch_->filePath("report.pdf")).startsWith("%PDF"));
+    QVERIFY(!report->saveTo("/no/such/place/report.pdf"));
+    QVERIFY(messages().contains("/no/such/place"));
+    QPrinter printer;
+    printer.setOutputFormat(QPrinter::PdfFormat);
+    printer.setOutputFileName(scratch_->filePath("printed.pdf"));
+    report->print(printer);
+    QVERIFY(bytesOf(scratch_->filePath("printed.pdf")).size() > 20000);
+    // The file that the export writes is the one that is shown.
+    session().exportTo(scratch_->filePath("out").toStdString());
+    QTRY_VERIFY_WITH_TIMEOUT(idle(), kLong_ms);
+    QCOMPARE(bytesOf(scratch_->filePath("out/report.pdf")), bytesOf(scratch_->filePath("report.pdf")));
 }
 
 void WindowTest::settingsAreCheckedAndUndone() {

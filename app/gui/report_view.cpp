@@ -1,0 +1,195 @@
+#include "app/gui/report_view.hpp"
+
+#include <poppler/qt6/poppler-qt6.h>
+
+#include <QAction>
+#include <QFile>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QLabel>
+#include <QPainter>
+#include <QPrintDialog>
+#include <QPrinter>
+#include <QSaveFile>
+#include <QScrollArea>
+#include <QSettings>
+#include <QToolBar>
+#include <QVBoxLayout>
+#include <QtConcurrent>
+#include <algorithm>
+
+#include "app/gui/theme.hpp"
+#include "app/pipeline/report_file.hpp"
+
+namespace terrawalk::gui {
+
+namespace {
+
+constexpr double kScreen_dpi = 144.0;
+constexpr double kPrint_dpi = 300.0;
+constexpr int kWidestPage_px = 900;
+
+QImage drawn(Poppler::Document& document, int page, double dpi) {
+    const std::unique_ptr<Poppler::Page> one = document.page(page);
+    return one ? one->renderToImage(dpi, dpi) : QImage();
+}
+
+std::unique_ptr<Poppler::Document> opened(const QString& file) {
+    auto document = Poppler::Document::load(file);
+    if (document) {
+        document->setRenderHint(Poppler::Document::Antialiasing);
+        document->setRenderHint(Poppler::Document::TextAntialiasing);
+    }
+    return document;
+}
+
+}  // namespace
+
+ReportView::ReportView(QWidget* parent) : QWidget(parent) {
+    bar_ = new QToolBar(tr("Report"));
+    bar_->setIconSize({18, 18});
+    bar_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    save_ = bar_->addAction(tr("Save as PDF…"), this, &ReportView::askAndSave);
+    print_ = bar_->addAction(tr("Print…"), this, &ReportView::askAndPrint);
+    hint_ = new QLabel;
+    hint_->setObjectName("quiet");
+    hint_->setAlignment(Qt::AlignCenter);
+    scroll_ = new QScrollArea;
+    scroll_->setWidgetResizable(true);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(bar_);
+    layout->addWidget(hint_, 1);
+    layout->addWidget(scroll_, 1);
+    resized_.setSingleShot(true);
+    resized_.setInterval(120);
+    connect(&resized_, &QTimer::timeout, this, &ReportView::layOut);
+    connect(&watcher_, &QFutureWatcherBase::finished, this, [this] {
+        if (watcher_.future().resultCount() > 0) take(watcher_.result());
+    });
+    themeChanged();
+    show(nullptr);
+}
+
+ReportView::~ReportView() {
+    watcher_.waitForFinished();
+}
+
+void ReportView::themeChanged() {
+    save_->setIcon(icon("save"));
+    print_->setIcon(icon("print"));
+}
+
+void ReportView::show(std::shared_ptr<const Products> products) {
+    products_ = std::move(products);
+    current_ = false;
+    pages_.clear();
+    file_.clear();
+    layOut();
+    if (isVisible()) make();
+}
+
+void ReportView::showEvent(QShowEvent*) {
+    if (!current_) make();
+}
+
+void ReportView::make() {
+    if (!products_) return;
+    current_ = true;
+    const QString file = folder_.filePath("report.pdf");
+    watcher_.setFuture(QtConcurrent::run([products = products_, file]() -> Made {
+        if (const auto written = writeReport(*products, file.toStdString()); !written) {
+            return {{}, QString::fromStdString(written.error().text()), {}};
+        }
+        const auto document = opened(file);
+        if (!document) return {{}, tr("The report cannot be drawn."), {}};
+        Made made{file, {}, {}};
+        for (int page = 0; page < document->numPages(); ++page)
+            made.pages.push_back(drawn(*document, page, kScreen_dpi));
+        return made;
+    }));
+    layOut();
+}
+
+void ReportView::take(const Made& made) {
+    file_ = made.file;
+    pages_ = made.pages;
+    if (!made.problem.isEmpty()) Q_EMIT failed(made.problem);
+    layOut();
+}
+
+void ReportView::layOut() {
+    const bool ready = !pages_.empty();
+    save_->setEnabled(ready);
+    print_->setEnabled(ready);
+    scroll_->setVisible(ready);
+    hint_->setVisible(!ready);
+    hint_->setText(
+        products_ ? tr("The report is being made ready…")
+                  : tr("No report yet. Process the survey: what it says to its client will stand here."));
+    if (!ready) return;
+    auto* paper = new QWidget;
+    column_ = new QVBoxLayout(paper);
+    column_->setContentsMargins(2 * kGrid_px, 2 * kGrid_px, 2 * kGrid_px, 2 * kGrid_px);
+    column_->setSpacing(2 * kGrid_px);
+    const int width = std::min(kWidestPage_px, std::max(240, scroll_->viewport()->width() - 4 * kGrid_px));
+    for (const QImage& page : pages_) {
+        auto* label = new QLabel;
+        const double ratio = devicePixelRatioF();
+        QPixmap picture =
+            QPixmap::fromImage(page.scaledToWidth(static_cast<int>(width * ratio), Qt::SmoothTransformation));
+        picture.setDevicePixelRatio(ratio);
+        label->setPixmap(picture);
+        label->setAlignment(Qt::AlignHCenter);
+        column_->addWidget(label);
+    }
+    column_->addStretch();
+    scroll_->setWidget(paper);
+}
+
+void ReportView::resizeEvent(QResizeEvent*) {
+    if (!pages_.empty()) resized_.start();
+}
+
+bool ReportView::saveTo(const QString& path) {
+    QFile source(file_);
+    QSaveFile target(path);
+    if (source.open(QIODevice::ReadOnly) && target.open(QIODevice::WriteOnly)) {
+        target.write(source.readAll());
+        if (target.commit()) {
+            Q_EMIT saved(path);
+            return true;
+        }
+    }
+    Q_EMIT failed(tr("%1: cannot be written (%2)").arg(path, target.errorString()));
+    return false;
+}
+
+void ReportView::askAndSave() {
+    const QString folder = QSettings().value("last_folder").toString();
+    const QString path =
+        QFileDialog::getSaveFileName(this, tr("Save the report"), folder + "/report.pdf", tr("PDF (*.pdf)"));
+    if (!path.isEmpty()) saveTo(path);
+}
+
+void ReportView::askAndPrint() {
+    QPrinter printer(QPrinter::HighResolution);
+    QPrintDialog dialog(&printer, this);
+    if (dialog.exec() == QDialog::Accepted) print(printer);
+}
+
+void ReportView::print(QPrinter& printer) {
+    const auto document = opened(file_);
+    if (!document) return;
+    QPainter painter(&printer);
+    for (int page = 0; page < document->numPages(); ++page) {
+        if (page > 0) printer.newPage();
+        const QImage image = drawn(*document, page, kPrint_dpi);
+        const QRectF paper = printer.pageLayout().paintRectPixels(printer.resolution());
+        const QSizeF size = QSizeF(image.size()).scaled(paper.size(), Qt::KeepAspectRatio);
+        painter.drawImage(QRectF(QPointF((paper.width() - size.width()) / 2.0, 0.0), size), image);
+    }
+}
+
+}  // namespace terrawalk::gui

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <QFutureWatcher>
+#include <QImage>
+#include <QTemporaryDir>
+#include <QTimer>
+#include <QWidget>
+#include <memory>
+#include <vector>
+
+#include "app/pipeline/process.hpp"
+
+class QAction;
+class QLabel;
+class QPrinter;
+class QScrollArea;
+class QToolBar;
+class QVBoxLayout;
+
+namespace terrawalk::gui {
+
+/// The report as it will be on paper, the same file as `process` writes; printed and saved from here.
+class ReportView : public QWidget {
+    Q_OBJECT
+  public:
+    explicit ReportView(QWidget* parent = nullptr);
+    ~ReportView() override;
+    void show(std::shared_ptr<const Products> products);
+    using QWidget::show;
+    void themeChanged();
+    /// Whether the report is being made or drawn.
+    [[nodiscard]] bool preparing() const { return watcher_.isRunning(); }
+    [[nodiscard]] std::size_t pages() const { return pages_.size(); }
+    /// Empty before it is made.
+    [[nodiscard]] const QString& file() const { return file_; }
+    /// Errors: false with a reason in problem().
+    bool saveTo(const QString& path);
+    void print(QPrinter& printer);
+
+  Q_SIGNALS:
+    void failed(const QString& problem);
+    void saved(const QString& path);
+
+  protected:
+    void showEvent(QShowEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+
+  private:
+    struct Made {
+        QString file;
+        QString problem;
+        std::vector<QImage> pages;
+    };
+    void make();
+    void take(const Made& made);
+    void layOut();
+    void askAndSave();
+    void askAndPrint();
+    std::shared_ptr<const Products> products_;
+    bool current_ = false;  ///< the pages are those of the products
+    QTemporaryDir folder_;
+    QString file_;
+    std::vector<QImage> pages_;
+    QFutureWatcher<Made> watcher_;
+    QTimer resized_;
+    QToolBar* bar_ = nullptr;
+    QAction* save_ = nullptr;
+    QAction* print_ = nullptr;
+    QScrollArea* scroll_ = nullptr;
+    QVBoxLayout* column_ = nullptr;
+    QLabel* hint_ = nullptr;
+};
+
+}  // namespace terrawalk::gui
