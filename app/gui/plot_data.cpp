@@ -251,6 +251,69 @@ Plot sigmaPlot(const Trajectory& trajectory) {
     return plot;
 }
 
+PlotSeries guide(double from, double to, double y, const QString& name = {}) {
+    return {name, SeriesStyle::Guide, SeriesInk::Quiet, {from, to}, {y, y}, {}};
+}
+
+Plot noFilter() {
+    Plot plot;
+    plot.reason = translated(
+        "The method that was used has no filter that foretells readings. Choose another one and "
+        "process again.");
+    return plot;
+}
+
+/// What the filter was surprised by, sensor by sensor.
+Plot innovationPlot(const std::vector<SensorInnovations>& sensors) {
+    Plot plot;
+    for (const SensorInnovations& sensor : sensors) {
+        if (sensor.readings.empty()) continue;
+        PlotSeries used{translated("used"), SeriesStyle::Dots, SeriesInk::First, {}, {}, {}};
+        PlotSeries gated{translated("beyond the gate"), SeriesStyle::Dots, SeriesInk::Second, {}, {}, {}};
+        for (const Innovation& reading : sensor.readings) {
+            PlotSeries& series = reading.used ? used : gated;
+            series.x.push_back(reading.time_s);
+            series.y.push_back(static_cast<double>(reading.over_sigma));
+        }
+        const double from = sensor.readings.front().time_s, to = sensor.readings.back().time_s;
+        PlotPanel panel{text(sensor.consistency.sensor), "σ", 1, {}, false};
+        gated.sets_scale = used.x.empty();
+        panel.series.push_back(std::move(used));
+        if (!gated.x.empty()) panel.series.push_back(std::move(gated));
+        panel.series.push_back(guide(from, to, kBand95, QString::fromUtf8("± 1.96")));
+        panel.series.push_back(guide(from, to, -kBand95));
+        plot.panels.push_back(std::move(panel));
+    }
+    if (plot.panels.empty()) return noFilter();
+    plot.note = translated(
+        "Reading less what the filter foretold, over the sigma of that: 95 % between the lines is "
+        "right.");
+    return plot;
+}
+
+Plot consistencyPlot(const std::vector<SensorInnovations>& sensors) {
+    Plot plot;
+    PlotSeries bars{
+        translated("Mean NIS over its degrees of freedom"), SeriesStyle::Bars, SeriesInk::First, {}, {}, {}};
+    for (const SensorInnovations& sensor : sensors) {
+        const SensorConsistency& sums = sensor.consistency;
+        if (sums.n == 0 || !(sums.dof > 0.0)) continue;
+        bars.x.push_back(static_cast<double>(plot.categories.size()));
+        bars.y.push_back(sums.mean_nis / sums.dof);
+        plot.categories << QString("%1 (%2)").arg(text(sums.sensor)).arg(sums.n);
+    }
+    if (bars.x.empty()) return noFilter();
+    plot.bar_width = 0.5;
+    plot.x_label = translated("Sensor (readings used)");
+    const double last = static_cast<double>(plot.categories.size()) - 0.5;
+    plot.panels.push_back({translated("Mean NIS over degrees of freedom"), {}, 2, {std::move(bars)}, true});
+    plot.panels.back().series.push_back(guide(-0.5, last, 1.0, translated("right")));
+    plot.note = translated(
+        "Normalised innovations squared. Above 1 the filter is too sure of this sensor, below 1 not "
+        "sure enough; gates and weights make it smaller.");
+    return plot;
+}
+
 Plot groundPlot(std::size_t run, const Products& products) {
     Plot plot;
     std::array<PlotSeries, kGroundPointStateCount> by_state;
@@ -286,10 +349,6 @@ Plot groundPlot(std::size_t run, const Products& products) {
         plot.panels.push_back(std::move(panel));
     }
     return plot;
-}
-
-PlotSeries guide(double from, double to, double y, const QString& name = {}) {
-    return {name, SeriesStyle::Guide, SeriesInk::Quiet, {from, to}, {y, y}, {}};
 }
 
 /// Errors over their predicted sigma, axis by axis, mark by mark.
@@ -561,6 +620,12 @@ Plot unnamedPlot(PlotKind kind, std::size_t run, const Survey& survey, const Pro
             return sigmaPlot(products->trajectories[run]);
         case PlotKind::GroundHeights:
             return groundPlot(run, *products);
+        case PlotKind::Innovations:
+        case PlotKind::Consistency: {
+            if (run >= products->innovations.size()) return noFilter();
+            const auto& sensors = products->innovations[run];
+            return kind == PlotKind::Innovations ? innovationPlot(sensors) : consistencyPlot(sensors);
+        }
         case PlotKind::NormalisedErrors:
             return normalisedErrors(products->report);
         case PlotKind::ErrorHistogram:
@@ -589,6 +654,8 @@ const std::vector<PlotKind>& allPlots() {
                                            PlotKind::Speed,
                                            PlotKind::Sigma,
                                            PlotKind::GroundHeights,
+                                           PlotKind::Innovations,
+                                           PlotKind::Consistency,
                                            PlotKind::NormalisedErrors,
                                            PlotKind::ErrorHistogram,
                                            PlotKind::QuantileQuantile,
@@ -623,6 +690,10 @@ QString plotName(PlotKind kind) {
             return translated("Sigmas");
         case PlotKind::GroundHeights:
             return translated("Ground points");
+        case PlotKind::Innovations:
+            return translated("Innovations");
+        case PlotKind::Consistency:
+            return translated("Consistency (NIS)");
         case PlotKind::NormalisedErrors:
             return translated("Errors over sigma");
         case PlotKind::ErrorHistogram:
@@ -639,13 +710,13 @@ QString plotName(PlotKind kind) {
 
 QString plotGroup(PlotKind kind) {
     if (kind <= PlotKind::Range) return translated("Sensors");
-    if (kind <= PlotKind::GroundHeights) return translated("Fused run");
+    if (kind <= PlotKind::Consistency) return translated("Fused run");
     if (kind <= PlotKind::QuantileQuantile) return translated("Errors at marks");
     return translated("Choices");
 }
 
 bool plotsOneRun(PlotKind kind) {
-    return kind <= PlotKind::GroundHeights;
+    return kind <= PlotKind::Consistency;
 }
 
 QString likelySensor(PlotKind kind) {
@@ -672,6 +743,8 @@ Plot plotOf(PlotKind kind, std::size_t run, const Survey& survey, const Products
     plot.title = plotName(kind);
     if (plotsOneRun(kind) && run < survey.runs.size()) {
         plot.title = translated("%1, run %2").arg(plot.title, text(survey.runs[run].id));
+    }
+    if (plotsOneRun(kind) && plot.categories.isEmpty()) {
         plot.over_time = true;
         plot.x_label = translated("Time of the log");
         plot.x_unit = "s";
