@@ -23,7 +23,6 @@ constexpr std::array<double, 3> kBlockSpacings{0.0, 2.0, 5.0};  // 0: points dra
 // Of the noise in a point foretold and held against one more: three points at the corners of a triangle, with
 // weights all over it, have half the variance of one on average.
 constexpr double kSurfaceShare = 0.5 / 1.5;
-constexpr std::size_t kCarriers = 4;  // points that carry a cell
 constexpr double kDensitySide_m = 2.0;
 
 constexpr Eigen::Index kTerms = 5;
@@ -280,6 +279,29 @@ Result<InterpolationErrorModel> learnInterpolationError(InterpolationMethod meth
     return model;
 }
 
+double CellSigma::total_m() const {
+    return std::sqrt(track_m * track_m + lean_m * lean_m + interpolation_m * interpolation_m);
+}
+
+CellSigma cellSigma(const ElevationGrid& heights, std::size_t row, std::size_t column,
+                    std::span<const CarryingPoint> near, const InterpolationErrorModel& model) {
+    const double cell_m = heights.geometry.cell_m;
+    double weights = 0.0, height_m = 0.0, plan_m = 0.0;
+    for (const CarryingPoint& point : near) {
+        const double weight = 1.0 / (point.squared_distance_m2 + 0.25 * cell_m * cell_m);
+        weights += weight;
+        height_m += weight * point.track.height_m;
+        plan_m += weight * point.track.plan_m;
+    }
+    CellSigma sigma;
+    sigma.distance_m = std::sqrt(near.front().squared_distance_m2);
+    sigma.slope = slopeOfGrid(heights, row, column);
+    sigma.track_m = height_m / weights;
+    sigma.lean_m = sigma.slope * plan_m / weights;
+    sigma.interpolation_m = std::sqrt(model.variance_m2(sigma.distance_m, sigma.slope));
+    return sigma;
+}
+
 Result<SurfaceUncertainty> surfaceUncertainty(const ElevationGrid& heights,
                                               const std::vector<Eigen::Vector3d>& points_m,
                                               const std::vector<TrackSigma>& track,
@@ -300,24 +322,16 @@ Result<SurfaceUncertainty> surfaceUncertainty(const ElevationGrid& heights,
         tbb::parallel_for(std::size_t{0}, g.rows, [&](std::size_t row) {
             if (stop.stop_requested()) return;
             std::vector<Neighbour> near;
+            std::vector<CarryingPoint> carrying;
             for (std::size_t column = 0; column < g.columns; ++column) {
                 const std::size_t cell = row * g.columns + column;
                 if (std::isnan(heights.heights_m[cell])) continue;
-                tree.nearest({g.centreX(column), g.centreY(row)}, kCarriers, near);
-                double weights = 0.0, height_m = 0.0, plan_m = 0.0;
-                for (const Neighbour& n : near) {
-                    const double weight = 1.0 / (n.squared_distance_m2 + 0.25 * g.cell_m * g.cell_m);
-                    weights += weight;
-                    height_m += weight * track[n.point].height_m;
-                    plan_m += weight * track[n.point].plan_m;
-                }
-                const double distance_m = std::sqrt(near.front().squared_distance_m2);
-                const double slope = slopeOfGrid(heights, row, column);
-                const double lean_m = slope * plan_m / weights;
-                result.sigmas_m[cell] =
-                    static_cast<float>(std::sqrt(height_m * height_m / (weights * weights) + lean_m * lean_m +
-                                                 model.variance_m2(distance_m, slope)));
-                const bool tested = distance_m <= model.greatest_distance_m;
+                tree.nearest({g.centreX(column), g.centreY(row)}, kCarryingPoints, near);
+                carrying.clear();
+                for (const Neighbour& n : near) carrying.push_back({n.squared_distance_m2, track[n.point]});
+                const CellSigma sigma = cellSigma(heights, row, column, carrying, model);
+                result.sigmas_m[cell] = static_cast<float>(sigma.total_m());
+                const bool tested = sigma.distance_m <= model.greatest_distance_m;
                 result.sources[cell] = static_cast<std::uint8_t>(
                     counts[cell] > 0 ? CellSource::Measured
                                      : (tested ? CellSource::Interpolated : CellSource::Extrapolated));

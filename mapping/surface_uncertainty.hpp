@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -45,6 +46,27 @@ struct TrackSigma {
     double height_m = 0.0;
     double plan_m = 0.0;  ///< per axis
 };
+
+/// Where the sigma of one cell comes from.
+struct CellSigma {
+    double track_m = 0.0;          ///< height of the track
+    double lean_m = 0.0;           ///< error in plan times the slope
+    double interpolation_m = 0.0;  ///< with the noise of ranges and the roughness of the ground
+    double distance_m = 0.0;       ///< to the nearest point
+    double slope = 0.0;
+    [[nodiscard]] double total_m() const;
+};
+
+/// One of the points next to a cell's centre.
+struct CarryingPoint {
+    double squared_distance_m2 = 0.0;
+    TrackSigma track;
+};
+inline constexpr std::size_t kCarryingPoints = 4;  ///< as many carry a cell, where there are so many
+
+/// @param near  the nearest `kCarryingPoints` points, the nearest first; not empty
+[[nodiscard]] CellSigma cellSigma(const ElevationGrid& heights, std::size_t row, std::size_t column,
+                                  std::span<const CarryingPoint> near, const InterpolationErrorModel& model);
 
 /// How a cell came to its height.
 enum class CellSource : std::uint8_t {

@@ -91,15 +91,15 @@ QVariant AccuracyModel::headerData(int section, Qt::Orientation orientation, int
         case CountColumn:
             return tr("n");
         case PlanRmse:
-            return tr("Plan RMSE (m)");
+            return tr("Plan RMSE");
         case HeightMean:
-            return tr("Height mean (m)");
+            return tr("Height mean");
         case HeightSd:
-            return tr("SD (m)");
+            return tr("SD");
         case HeightRmse:
-            return tr("RMSE (m)");
+            return tr("RMSE");
         case HeightLargest:
-            return tr("Largest (m)");
+            return tr("Largest");
         default:
             return {};
     }

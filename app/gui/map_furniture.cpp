@@ -18,10 +18,6 @@ constexpr double kPadding_px = 8.0;
 constexpr double kRampHeight_px = 96.0;
 constexpr double kRampWidth_px = 16.0;
 
-QString translated(const char* text) {
-    return QCoreApplication::translate("MapFurniture", text);
-}
-
 void drawScaleBar(QPainter& painter, const MapTransform& transform, const QPalette& palette) {
     const double length_m = roundBelow(140.0 / transform.pixels_per_m);
     const double length_px = length_m * transform.pixels_per_m;
@@ -68,14 +64,31 @@ QString value(double number, double range) {
 QString titleOf(RasterLayer layer) {
     switch (layer) {
         case RasterLayer::Height:
-            return translated("Height");
+            return QCoreApplication::translate("MapFurniture", "Height");
         case RasterLayer::Uncertainty:
-            return translated("Height, 1 σ");
+            return QCoreApplication::translate("MapFurniture", "Height, 1 σ");
         case RasterLayer::Density:
-            return translated("Density");
+            return QCoreApplication::translate("MapFurniture", "Density");
         case RasterLayer::Source:
-            return translated("Source");
+            return QCoreApplication::translate("MapFurniture", "Source");
         case RasterLayer::None:
+            break;
+    }
+    return {};
+}
+
+QString titleOf(TrackColouring colouring) {
+    switch (colouring) {
+        case TrackColouring::Speed:
+            return QCoreApplication::translate("MapFurniture", "Track, speed");
+        case TrackColouring::Height:
+            return QCoreApplication::translate("MapFurniture", "Track, height");
+        case TrackColouring::SigmaPlan:
+            return QCoreApplication::translate("MapFurniture", "Track, plan 1 σ");
+        case TrackColouring::SigmaHeight:
+            return QCoreApplication::translate("MapFurniture", "Track, height 1 σ");
+        case TrackColouring::Run:
+        case TrackColouring::Fix:
             break;
     }
     return {};
@@ -86,13 +99,25 @@ std::vector<LegendPart> legendParts(const MapScene& scene) {
     if (scene.raster && !scene.raster->levels.empty()) {
         parts.push_back({titleOf(scene.raster->layer), scene.raster->legend});
     }
-    const double greatest_m = greatestSigma(scene);
-    if (greatest_m > 0.0) {
+    if (const auto classes = fixClasses(scene); !classes.empty()) {
+        LegendPart part{QCoreApplication::translate("MapFurniture", "GNSS fix"), {}};
+        for (const auto& [name, colour] : classes) {
+            part.legend.classes << name;
+            part.legend.ramp.push_back(colour);
+        }
+        parts.push_back(std::move(part));
+    }
+    if (const auto range = trackRange(scene)) {
         std::vector<QColor> ramp;
         for (const Colour& c : sequentialRamp()) ramp.emplace_back(c[0], c[1], c[2]);
-        parts.push_back({scene.colouring == TrackColouring::SigmaPlan ? translated("Track, plan 1 σ")
-                                                                      : translated("Track, height 1 σ"),
-                         {ramp, 0.0, greatest_m, true, "m", {}}});
+        const bool speed = scene.colouring == TrackColouring::Speed;
+        parts.push_back({titleOf(scene.colouring),
+                         {ramp,
+                          range->low,
+                          range->high,
+                          scene.colouring != TrackColouring::Height,
+                          speed ? "m/s" : "m",
+                          {}}});
     }
     return parts;
 }
@@ -152,7 +177,8 @@ void drawVectorNote(QPainter& painter, const MapScene& scene, const MapTransform
                     const QPalette& palette) {
     const double scale = vectorScale(scene, transform);
     if (scale <= 0.0) return;
-    const QString note = translated("errors at marks %1 times as long").arg(QString::number(scale, 'g', 3));
+    const QString note = QCoreApplication::translate("MapFurniture", "errors at marks %1 times as long")
+                             .arg(QString::number(scale, 'g', 3));
     const QFontMetricsF metrics(painter.font());
     const double width = metrics.horizontalAdvance(note) + 24 + 3 * kPadding_px;
     const double height = metrics.height() + kPadding_px;

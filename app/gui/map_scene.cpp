@@ -1,11 +1,13 @@
 #include "app/gui/map_scene.hpp"
 
+#include <QCoreApplication>
 #include <QPainterPath>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "app/gui/round_numbers.hpp"
+#include "app/gui/theme.hpp"
 #include "app/pipeline/relief.hpp"
 
 namespace terrawalk::gui {
@@ -18,8 +20,52 @@ QString text(const std::string& utf8) {
     return QString::fromStdString(utf8);
 }
 
-const std::vector<double>& sigmas(const MapTrack& track, TrackColouring colouring) {
-    return colouring == TrackColouring::SigmaPlan ? track.sigma_plan_m : track.sigma_height_m;
+std::vector<double> valuesOf(const MapTrack& track, TrackColouring colouring) {
+    switch (colouring) {
+        case TrackColouring::Speed:
+            return track.speed_mps;
+        case TrackColouring::SigmaPlan:
+            return track.sigma_plan_m;
+        case TrackColouring::SigmaHeight:
+            return track.sigma_height_m;
+        case TrackColouring::Height: {
+            std::vector<double> heights_m;
+            for (const Eigen::Vector3d& p : track.map_m) heights_m.push_back(p.z());
+            return heights_m;
+        }
+        case TrackColouring::Run:
+        case TrackColouring::Fix:
+            break;
+    }
+    return {};
+}
+
+struct FixClass {
+    int code;
+    const char* name;
+    QRgb colour;
+};
+// Okabe and Ito: told apart by readers who do not see all colours.
+constexpr std::array<FixClass, 5> kFixClasses{{
+    {fix_code::kRtkFixed, QT_TRANSLATE_NOOP("MapScene", "RTK fixed"), qRgb(0, 158, 115)},
+    {fix_code::kRtkFloat, QT_TRANSLATE_NOOP("MapScene", "RTK float"), qRgb(86, 180, 233)},
+    {fix_code::kDifferential, QT_TRANSLATE_NOOP("MapScene", "DGNSS"), qRgb(240, 228, 66)},
+    {fix_code::kSingle, QT_TRANSLATE_NOOP("MapScene", "single"), qRgb(230, 159, 0)},
+    {fix_code::kNone, QT_TRANSLATE_NOOP("MapScene", "none"), qRgb(213, 94, 0)},
+}};
+constexpr QRgb kUnknownFix = qRgb(120, 120, 120);
+
+QRgb fixColour(int code) {
+    const auto found = std::find_if(kFixClasses.begin(), kFixClasses.end(),
+                                    [&](const FixClass& c) { return c.code == code; });
+    return found == kFixClasses.end() ? kUnknownFix : found->colour;
+}
+
+double quantile(std::vector<double> values, double share) {
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
 }
 
 QPolygonF onScreen(const MapTrack& track, const MapTransform& transform) {
@@ -33,20 +79,31 @@ QPolygonF onScreen(const MapTrack& track, const MapTransform& transform) {
     return line;
 }
 
-void drawBySigma(QPainter& painter, const MapTrack& track, const std::vector<double>& sigmas_m,
-                 double greatest_m, const MapTransform& transform, double width_px) {
-    const std::vector<Colour> ramp = sequentialRamp();
+/// Pieces of one track, each in the colour of its end.
+template <class ColourAt>
+void drawColoured(QPainter& painter, const MapTrack& track, const MapTransform& transform, double width_px,
+                  const ColourAt& colourAt) {
     QPointF last;
     for (std::size_t i = 0; i < track.map_m.size(); ++i) {
         const QPointF at = transform.toScreen({track.map_m[i].x(), track.map_m[i].y()});
         if (i > 0 && (at - last).manhattanLength() < 0.7) continue;
         if (i > 0) {
-            const Colour c = rampColour(ramp, sigmas_m[i] / greatest_m);
-            painter.setPen(QPen(QColor(c[0], c[1], c[2]), width_px, Qt::SolidLine, Qt::RoundCap));
+            painter.setPen(QPen(QColor(colourAt(i)), width_px, Qt::SolidLine, Qt::RoundCap));
             painter.drawLine(last, at);
         }
         last = at;
     }
+}
+
+void drawPart(QPainter& painter, const MapTrack& track, double from_s, double to_s, const QPen& pen,
+              const MapTransform& transform) {
+    QPolygonF line;
+    for (std::size_t i = 0; i < track.map_m.size(); ++i) {
+        if (track.time_s[i] < from_s || track.time_s[i] > to_s) continue;
+        line << transform.toScreen({track.map_m[i].x(), track.map_m[i].y()});
+    }
+    painter.setPen(pen);
+    painter.drawPolyline(line);
 }
 
 /// Text with an edge that sets it off from any ground.
@@ -117,17 +174,84 @@ QColor runColour(std::size_t index) {
     return colours[index % colours.size()];
 }
 
-double greatestSigma(const MapScene& scene) {
+std::optional<ValueRange> trackRange(const MapScene& scene) {
+    if (!scene.survey) return std::nullopt;
     std::vector<double> all;
-    if (!scene.survey || scene.colouring == TrackColouring::Run) return 0.0;
     for (const MapTrack& track : scene.survey->tracks) {
-        const auto& own = sigmas(track, scene.colouring);
-        all.insert(all.end(), own.begin(), own.end());
+        if (scene.hidden_runs.contains(text(track.run_id))) continue;
+        const auto own = valuesOf(track, scene.colouring);
+        std::copy_if(own.begin(), own.end(), std::back_inserter(all),
+                     [](double v) { return std::isfinite(v); });
     }
-    if (all.empty()) return 0.0;
-    const auto at = all.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(all.size() - 1));
-    std::nth_element(all.begin(), at, all.end());
-    return *at;
+    if (all.empty()) return std::nullopt;
+    // The few largest values must not take the colours from all others.
+    const double high = quantile(all, 0.98);
+    const double low = scene.colouring == TrackColouring::Height ? quantile(std::move(all), 0.02) : 0.0;
+    return ValueRange{low, std::max(high, low + 1e-6)};
+}
+
+std::vector<QRgb> trackColours(const MapTrack& track, TrackColouring colouring,
+                               const std::optional<ValueRange>& range) {
+    std::vector<QRgb> colours;
+    if (colouring == TrackColouring::Fix && track.fix.size() == track.map_m.size()) {
+        for (const int code : track.fix) colours.push_back(fixColour(code));
+        return colours;
+    }
+    const auto own = valuesOf(track, colouring);
+    if (!range || own.size() != track.map_m.size()) return colours;
+    const std::vector<Colour> ramp = sequentialRamp();
+    for (const double value : own) {
+        const Colour c = rampColour(ramp, (value - range->low) / (range->high - range->low));
+        colours.push_back(qRgb(c[0], c[1], c[2]));
+    }
+    return colours;
+}
+
+std::vector<std::pair<QString, QColor>> fixClasses(const MapScene& scene) {
+    std::vector<std::pair<QString, QColor>> classes;
+    if (!scene.survey || scene.colouring != TrackColouring::Fix) return classes;
+    const auto occurs = [&](int code) {
+        return std::any_of(scene.survey->tracks.begin(), scene.survey->tracks.end(),
+                           [&](const MapTrack& track) {
+                               return std::find(track.fix.begin(), track.fix.end(), code) != track.fix.end();
+                           });
+    };
+    for (const FixClass& c : kFixClasses) {
+        if (occurs(c.code))
+            classes.emplace_back(QCoreApplication::translate("MapScene", c.name), QColor(c.colour));
+    }
+    if (occurs(-1))
+        classes.emplace_back(QCoreApplication::translate("MapScene", "not told"), QColor(kUnknownFix));
+    return classes;
+}
+
+std::optional<TrackHit> nearestOnTracks(const MapScene& scene, const MapTransform& transform,
+                                        QPointF screen_px, const QString& only_run) {
+    if (!scene.survey) return std::nullopt;
+    std::optional<TrackHit> best;
+    for (std::size_t t = 0; t < scene.survey->tracks.size(); ++t) {
+        const MapTrack& track = scene.survey->tracks[t];
+        const QString id = text(track.run_id);
+        if (scene.hidden_runs.contains(id) || (!only_run.isEmpty() && id != only_run)) continue;
+        for (std::size_t i = 0; i < track.map_m.size(); ++i) {
+            const QPointF off = transform.toScreen({track.map_m[i].x(), track.map_m[i].y()}) - screen_px;
+            const double distance_px = std::hypot(off.x(), off.y());
+            if (!best || distance_px < best->distance_px) best = TrackHit{t, i, distance_px};
+        }
+    }
+    return best;
+}
+
+QString markAt(const MapScene& scene, const MapTransform& transform, QPointF screen_px) {
+    if (!scene.survey) return {};
+    constexpr double kReach_px = 8.0;
+    for (const PlacedMark& placed : scene.survey->marks) {
+        const QString name = text(placed.mark.name);
+        if (scene.hidden_marks.contains(name)) continue;
+        const QPointF off = transform.toScreen({placed.map_m.x(), placed.map_m.y()}) - screen_px;
+        if (std::hypot(off.x(), off.y()) <= kReach_px) return name;
+    }
+    return {};
 }
 
 double vectorScale(const MapScene& scene, const MapTransform& transform) {
@@ -148,23 +272,40 @@ void drawTracks(QPainter& painter, const MapScene& scene, const MapTransform& tr
     if (!scene.survey) return;
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setBrush(Qt::NoBrush);
-    const double greatest_m = greatestSigma(scene);
-    for (std::size_t i = 0; i < scene.survey->tracks.size(); ++i) {
-        const MapTrack& track = scene.survey->tracks[i];
+    const auto range = trackRange(scene);
+    for (std::size_t t = 0; t < scene.survey->tracks.size(); ++t) {
+        const MapTrack& track = scene.survey->tracks[t];
         const QString id = text(track.run_id);
         if (scene.hidden_runs.contains(id)) continue;
         const double width_px = scene.highlighted == id ? 4.0 : 1.8;
-        const auto& own = sigmas(track, scene.colouring);
-        const QPolygonF line = onScreen(track, transform);
         painter.setPen(
             QPen(QColor(255, 255, 255, 150), width_px + 1.6, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-        painter.drawPolyline(line);
-        if (greatest_m > 0.0 && own.size() == track.map_m.size()) {
-            drawBySigma(painter, track, own, greatest_m, transform, width_px + 0.7);
-            continue;
+        painter.drawPolyline(onScreen(track, transform));
+        const std::vector<QRgb> colours = trackColours(track, scene.colouring, range);
+        if (!colours.empty()) {
+            drawColoured(painter, track, transform, width_px + 0.7,
+                         [&](std::size_t i) { return colours[i]; });
+        } else {
+            painter.setPen(QPen(runColour(t), width_px, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+            painter.drawPolyline(onScreen(track, transform));
         }
-        painter.setPen(QPen(runColour(i), width_px, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-        painter.drawPolyline(line);
+    }
+    for (const MapTrack& track : scene.survey->tracks) {
+        const QString id = text(track.run_id);
+        if (scene.hidden_runs.contains(id)) continue;
+        for (const ExcludedStretch& out : scene.edits.stretches) {
+            if (out.run != track.run_id) continue;
+            drawPart(painter, track, out.from_s, out.to_s, QPen(Qt::white, 5.0, Qt::SolidLine, Qt::FlatCap),
+                     transform);
+            drawPart(painter, track, out.from_s, out.to_s,
+                     QPen(QColor(110, 110, 110), 2.0, Qt::DotLine, Qt::FlatCap), transform);
+        }
+        if (scene.stretch && scene.stretch->run == id) {
+            QColor glow = accentColour();
+            glow.setAlpha(150);
+            drawPart(painter, track, scene.stretch->from_s, scene.stretch->to_s,
+                     QPen(glow, 10.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin), transform);
+        }
     }
 }
 
@@ -212,6 +353,103 @@ void drawTerraceEdges(QPainter& painter, const MapScene& scene, const MapTransfo
             const bool top = vertices == &edge.top_m;
             painter.setPen(QPen(QColor(70, 35, 20), top ? 1.8 : 1.0, top ? Qt::SolidLine : Qt::DashLine));
             painter.drawPolyline(line);
+        }
+    }
+}
+
+void drawContours(QPainter& painter, const MapScene& scene, const MapTransform& transform,
+                  const QPalette& palette) {
+    if (!scene.contours) return;
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setBrush(Qt::NoBrush);
+    const QRectF seen = QRectF(QPointF(0, 0), transform.size_px).adjusted(-8, -8, 8, 8);
+    QList<QRectF> taken;
+    for (const Contour& contour : *scene.contours) {
+        QPolygonF line;
+        for (const Eigen::Vector2d& v : contour.vertices) {
+            const QPointF at = transform.toScreen({v.x(), v.y()});
+            if (!line.isEmpty() && (at - line.last()).manhattanLength() < 0.7) continue;
+            line << at;
+        }
+        if (line.size() < 2 || !line.boundingRect().intersects(seen)) continue;
+        painter.setPen(QPen(QColor(60, 45, 30, contour.is_index ? 220 : 130), contour.is_index ? 1.4 : 0.8));
+        painter.drawPolyline(line);
+        if (!contour.is_index || line.size() < 12) continue;
+        const QString label =
+            QString::number(contour.level, 'f', contour.level == std::round(contour.level) ? 0 : 1);
+        const QPointF at = line[line.size() / 2];
+        const QRectF box(at - QPointF(24, 12), QSizeF(48, 24));
+        const bool free =
+            std::none_of(taken.begin(), taken.end(), [&](const QRectF& o) { return o.intersects(box); });
+        if (!free || !seen.contains(box)) continue;
+        taken << box;
+        drawLabel(painter, at + QPointF(-painter.fontMetrics().horizontalAdvance(label) / 2.0, 4), label,
+                  palette);
+    }
+}
+
+namespace {
+
+QPolygonF onScreen(const QPolygonF& vertices_m, const MapTransform& transform, bool closed) {
+    QPolygonF line;
+    for (const QPointF& v : vertices_m) line << transform.toScreen(v);
+    if (closed && line.size() > 2) line << line.first();
+    return line;
+}
+
+void drawLine(QPainter& painter, const QPolygonF& line, const QColor& colour, Qt::PenStyle style) {
+    painter.setPen(QPen(Qt::white, 4.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    painter.drawPolyline(line);
+    painter.setPen(QPen(colour, 2.2, style, Qt::RoundCap, Qt::RoundJoin));
+    painter.drawPolyline(line);
+}
+
+QColor lineColour(BreaklineKind kind) {
+    switch (kind) {
+        case BreaklineKind::Hard:
+            return {170, 30, 90};
+        case BreaklineKind::Soft:
+            return {130, 90, 190};
+        case BreaklineKind::Boundary:
+            return {0, 90, 160};
+        case BreaklineKind::Hole:
+            return {150, 90, 0};
+    }
+    return {};
+}
+
+}  // namespace
+
+void drawEdits(QPainter& painter, const MapScene& scene, const MapTransform& transform,
+               const QPalette& palette) {
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setBrush(Qt::NoBrush);
+    for (const Breakline& line : scene.edits.lines) {
+        QPolygonF vertices_m;
+        for (const Eigen::Vector3d& v : line.vertices_m) vertices_m << QPointF(v.x(), v.y());
+        const bool ring = line.kind == BreaklineKind::Boundary || line.kind == BreaklineKind::Hole;
+        drawLine(painter, onScreen(vertices_m, transform, ring), lineColour(line.kind),
+                 line.kind == BreaklineKind::Soft ? Qt::DashLine : Qt::SolidLine);
+    }
+    if (!scene.sketch.vertices_m.isEmpty()) {
+        const QPolygonF line = onScreen(scene.sketch.vertices_m, transform, scene.sketch.closed);
+        drawLine(painter, line, accentColour(), Qt::SolidLine);
+        painter.setPen(QPen(Qt::white, 1.5));
+        painter.setBrush(accentColour());
+        for (const QPointF& at : line) painter.drawEllipse(at, 4.0, 4.0);
+        const QPointF end = transform.toScreen(scene.sketch.vertices_m.last());
+        drawLabel(painter, end + QPointF(12, -8), scene.sketch.label, palette);
+    }
+    if (scene.place_m) {
+        const QPointF at = transform.toScreen(*scene.place_m);
+        for (const auto& [colour, width] : {std::pair{QColor(Qt::white), 4.0}, {accentColour(), 2.0}}) {
+            painter.setPen(QPen(colour, width));
+            painter.setBrush(Qt::NoBrush);
+            painter.drawEllipse(at, 9.0, 9.0);
+            painter.drawLine(at - QPointF(14, 0), at - QPointF(5, 0));
+            painter.drawLine(at + QPointF(5, 0), at + QPointF(14, 0));
+            painter.drawLine(at - QPointF(0, 14), at - QPointF(0, 5));
+            painter.drawLine(at + QPointF(0, 5), at + QPointF(0, 14));
         }
     }
 }

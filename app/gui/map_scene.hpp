@@ -3,18 +3,30 @@
 #include <QColor>
 #include <QPainter>
 #include <QPalette>
+#include <QPolygonF>
 #include <QSet>
 #include <QString>
 #include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "app/gui/map_transform.hpp"
 #include "app/gui/raster_picture.hpp"
+#include "app/gui/selection.hpp"
 #include "app/pipeline/process.hpp"
 #include "app/pipeline/survey_map.hpp"
 
 namespace terrawalk::gui {
 
-enum class TrackColouring { Run, SigmaPlan, SigmaHeight };
+enum class TrackColouring { Run, Fix, Speed, Height, SigmaPlan, SigmaHeight };
+
+/// What a person is drawing: map metres.
+struct MapSketch {
+    QPolygonF vertices_m;
+    bool closed = false;  ///< a ring
+    QString label;        ///< stands at the last vertex, e.g. a length
+};
 
 /// Everything that the map shows. A value: the view draws it, others change it.
 struct MapScene {
@@ -26,6 +38,11 @@ struct MapScene {
     QSet<QString> hidden_marks;
     QString highlighted;  ///< run or mark that is selected elsewhere
     bool show_edges = true;
+    std::shared_ptr<const std::vector<Contour>> contours;  ///< null: none shown
+    SurveyEdits edits;                                     ///< drawn lines and excluded stretches are shown
+    std::optional<TrackStretch> stretch;                   ///< selected
+    MapSketch sketch;
+    std::optional<QPointF> place_m;  ///< that a person asked about
 
     /// Of all that there is, in map metres; empty where there is nothing.
     [[nodiscard]] QRectF extent_m() const;
@@ -34,8 +51,29 @@ struct MapScene {
 /// The colour of the i-th run, told apart by readers who do not see all colours.
 [[nodiscard]] QColor runColour(std::size_t index);
 
-/// Greatest sigma of the colour ramp of the tracks; 0 where none tells its sigma.
-[[nodiscard]] double greatestSigma(const MapScene& scene);
+/// Ends of the colour ramp of the tracks; nothing where they have no values, or one colour for each run or
+/// fix.
+struct ValueRange {
+    double low = 0.0;
+    double high = 1.0;
+};
+[[nodiscard]] std::optional<ValueRange> trackRange(const MapScene& scene);
+/// Colour of each place of a track; none where all of it has that of its run.
+/// @param range  of the scene's tracks
+[[nodiscard]] std::vector<QRgb> trackColours(const MapTrack& track, TrackColouring colouring,
+                                             const std::optional<ValueRange>& range);
+/// Kinds of fix that occur in the shown tracks, with their colours.
+[[nodiscard]] std::vector<std::pair<QString, QColor>> fixClasses(const MapScene& scene);
+/// The place on a track that is nearest to a point on the screen.
+struct TrackHit {
+    std::size_t track = 0;
+    std::size_t index = 0;
+    double distance_px = 0.0;
+};
+[[nodiscard]] std::optional<TrackHit> nearestOnTracks(const MapScene& scene, const MapTransform& transform,
+                                                      QPointF screen_px, const QString& only_run = {});
+/// The mark whose symbol lies under a point on the screen; empty where there is none.
+[[nodiscard]] QString markAt(const MapScene& scene, const MapTransform& transform, QPointF screen_px);
 /// Times by which errors at marks are drawn longer than they are, a round number.
 [[nodiscard]] double vectorScale(const MapScene& scene, const MapTransform& transform);
 
@@ -43,5 +81,10 @@ void drawTracks(QPainter& painter, const MapScene& scene, const MapTransform& tr
 void drawMarks(QPainter& painter, const MapScene& scene, const MapTransform& transform,
                const QPalette& palette);
 void drawTerraceEdges(QPainter& painter, const MapScene& scene, const MapTransform& transform);
+void drawContours(QPainter& painter, const MapScene& scene, const MapTransform& transform,
+                  const QPalette& palette);
+/// Drawn lines, the sketch, and the place that was asked about.
+void drawEdits(QPainter& painter, const MapScene& scene, const MapTransform& transform,
+               const QPalette& palette);
 
 }  // namespace terrawalk::gui

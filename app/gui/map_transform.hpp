@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QMarginsF>
 #include <QPointF>
 #include <QRectF>
 #include <QSizeF>
@@ -29,11 +30,14 @@ struct MapTransform {
     }
     void pan(QPointF by_px) { centre_m += QPointF(-by_px.x(), by_px.y()) / pixels_per_m; }
     /// @param extent_m  map metres; its top() is the least y
-    void fit(QRectF extent_m, double margin_px) {
-        centre_m = extent_m.center();
+    void fit(QRectF extent_m, QMarginsF margins_px) {
         const double wide = std::max(extent_m.width(), 1.0), high = std::max(extent_m.height(), 1.0);
-        pixels_per_m = std::max(1e-4, std::min((size_px.width() - 2 * margin_px) / wide,
-                                               (size_px.height() - 2 * margin_px) / high));
+        pixels_per_m =
+            std::max(1e-4, std::min((size_px.width() - margins_px.left() - margins_px.right()) / wide,
+                                    (size_px.height() - margins_px.top() - margins_px.bottom()) / high));
+        centre_m = extent_m.center() +
+                   QPointF(margins_px.right() - margins_px.left(), margins_px.top() - margins_px.bottom()) /
+                       (2.0 * pixels_per_m);
     }
 };
 

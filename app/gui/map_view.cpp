@@ -9,40 +9,77 @@
 #include <utility>
 
 #include "app/gui/map_furniture.hpp"
+#include "app/gui/round_numbers.hpp"
 
 namespace terrawalk::gui {
 
 namespace {
-constexpr double kFitMargin_px = 32.0;
+
+// Room for the legend at the right.
+constexpr QMarginsF kFitMargins_px(24.0, 24.0, 128.0, 32.0);
 constexpr double kKeyPan_px = 64.0;
 constexpr double kKeyZoom = 1.25;
+/// Farther than this a press was a drag.
+constexpr double kClick_px = 4.0;
+constexpr double kReach_px = 12.0;
+constexpr double kContours = 25.0;
+
+double length(const QPolygonF& line) {
+    double sum = 0.0;
+    for (qsizetype i = 1; i < line.size(); ++i)
+        sum += std::hypot(line[i].x() - line[i - 1].x(), line[i].y() - line[i - 1].y());
+    return sum;
+}
+
+double area(const QPolygonF& ring) {
+    double twice = 0.0;
+    for (qsizetype i = 0; i < ring.size(); ++i) {
+        const QPointF a = ring[i] - ring[0], b = ring[(i + 1) % ring.size()] - ring[0];
+        twice += a.x() * b.y() - a.y() * b.x();
+    }
+    return std::abs(twice) / 2.0;
+}
+
+double contourInterval(const Products& products) {
+    const double range_m = products.report.surface.highest_m - products.report.surface.lowest_m;
+    return range_m > 0.0 ? roundBelow(std::max(range_m / kContours, 0.05)) : 1.0;
+}
+
 }  // namespace
 
-MapView::MapView(QWidget* parent) : QWidget(parent) {
+MapView::MapView(Selection& selection, QWidget* parent) : QWidget(parent), selection_(selection) {
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
     setMinimumSize(320, 240);
     setCursor(Qt::CrossCursor);
     setAccessibleName(tr("Map"));
-    connect(&watcher_, &QFutureWatcherBase::finished, this, [this] {
-        scene_.raster = watcher_.result();
+    connect(&layer_watcher_, &QFutureWatcherBase::finished, this, [this] {
+        if (layer_watcher_.future().resultCount() == 0) return;
+        scene_.raster = layer_watcher_.result();
         update();
         Q_EMIT layerShown();
     });
+    connect(&contour_watcher_, &QFutureWatcherBase::finished, this, [this] {
+        if (contour_watcher_.future().resultCount() == 0) return;
+        scene_.contours = contour_watcher_.result();
+        update();
+    });
+    connect(&selection_, &Selection::changed, this, &MapView::followSelection);
 }
 
 MapView::~MapView() {
-    watcher_.waitForFinished();
+    layer_watcher_.waitForFinished();
+    contour_watcher_.waitForFinished();
 }
 
 void MapView::show(std::shared_ptr<const SurveyMap> survey, std::shared_ptr<const Products> products) {
     const QRectF before = scene_.extent_m();
     scene_.survey = std::move(survey);
     scene_.products = std::move(products);
-    scene_.raster.reset();
-    if (!fitted_ || !before.intersects(scene_.extent_m())) fit();
-    if (fitted_) fit();
+    scene_.place_m.reset();
+    if (fitted_ || !before.intersects(scene_.extent_m())) fit();
     colourLayer();
+    makeContours();
     update();
 }
 
@@ -50,11 +87,25 @@ void MapView::colourLayer() {
     scene_.raster.reset();
     update();
     if (!scene_.products) {
-        watcher_.setFuture({});
+        layer_watcher_.setFuture({});
         return;
     }
-    watcher_.setFuture(QtConcurrent::run([products = scene_.products, layer = layer_] {
+    layer_watcher_.setFuture(QtConcurrent::run([products = scene_.products, layer = layer_] {
         return std::make_shared<const RasterPicture>(rasterPicture(*products, layer));
+    }));
+}
+
+void MapView::makeContours() {
+    scene_.contours.reset();
+    if (!scene_.products || !contours_wanted_) {
+        contour_watcher_.setFuture({});
+        return;
+    }
+    contour_watcher_.setFuture(QtConcurrent::run([products = scene_.products] {
+        SilentProgress silent;
+        auto lines = surfaceContours(*products, contourInterval(*products), silent, {});
+        return std::make_shared<const std::vector<Contour>>(lines ? std::move(*lines)
+                                                                  : std::vector<Contour>());
     }));
 }
 
@@ -91,8 +142,30 @@ void MapView::setEdgesVisible(bool visible) {
     update();
 }
 
-void MapView::highlight(const QString& run_or_mark) {
-    scene_.highlighted = run_or_mark;
+void MapView::setContoursVisible(bool visible) {
+    if (visible == contours_wanted_) return;
+    contours_wanted_ = visible;
+    makeContours();
+    update();
+}
+
+void MapView::setEdits(const SurveyEdits& edits) {
+    scene_.edits = edits;
+    update();
+}
+
+void MapView::setTool(MapTool tool) {
+    if (tool == tool_) return;
+    tool_ = tool;
+    drawn_m_.clear();
+    scene_.sketch = {};
+    update();
+    Q_EMIT toolChanged(tool);
+}
+
+void MapView::followSelection() {
+    scene_.highlighted = selection_.stretch() ? QString() : selection_.item();
+    scene_.stretch = selection_.stretch();
     update();
 }
 
@@ -100,7 +173,7 @@ void MapView::fit() {
     transform_.size_px = size();
     const QRectF extent = scene_.extent_m();
     if (extent.isEmpty()) return;
-    transform_.fit(extent, kFitMargin_px);
+    transform_.fit(extent, kFitMargins_px);
     fitted_ = true;
     update();
 }
@@ -117,14 +190,22 @@ void MapView::zoomBy(double factor) {
     update();
 }
 
+void MapView::moveBy(QPointF by_px) {
+    transform_.pan(by_px);
+    fitted_ = false;
+    update();
+}
+
 void MapView::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     painter.fillRect(rect(), palette().color(QPalette::Base));
     if (!scene_.survey) return;
     if (scene_.raster) drawRaster(painter, *scene_.raster, transform_);
+    drawContours(painter, scene_, transform_, palette());
     drawTerraceEdges(painter, scene_, transform_);
     drawTracks(painter, scene_, transform_);
     drawMarks(painter, scene_, transform_, palette());
+    drawEdits(painter, scene_, transform_, palette());
     drawFurniture(painter, scene_, transform_, palette());
 }
 
@@ -141,27 +222,93 @@ void MapView::wheelEvent(QWheelEvent* event) {
 }
 
 void MapView::mousePressEvent(QMouseEvent* event) {
+    if (event->button() == Qt::RightButton && draws()) return finishLine();
     if (event->button() != Qt::LeftButton && event->button() != Qt::MiddleButton) return;
+    pressed_at_ = event->position();
+    if (tool_ == MapTool::SelectStretch && event->button() == Qt::LeftButton) {
+        stretch_from_ = nearestOnTracks(scene_, transform_, event->position());
+        if (stretch_from_ && stretch_from_->distance_px > kReach_px) stretch_from_.reset();
+        if (stretch_from_) return;
+    }
     dragged_from_ = event->position();
-    setCursor(Qt::ClosedHandCursor);
 }
 
 void MapView::mouseMoveEvent(QMouseEvent* event) {
-    if (dragged_from_) {
-        transform_.pan(event->position() - *dragged_from_);
-        dragged_from_ = event->position();
-        fitted_ = false;
-        update();
+    const QPointF at = event->position();
+    if (stretch_from_) {
+        extendStretch(at);
+    } else if (dragged_from_) {
+        if (cursor().shape() != Qt::ClosedHandCursor) setCursor(Qt::ClosedHandCursor);
+        moveBy(at - *dragged_from_);
+        dragged_from_ = at;
+    } else if (draws() && !drawn_m_.isEmpty()) {
+        showSketch(at);
     }
-    Q_EMIT hovered(readout(scene_, transform_.toMap(event->position())));
+    Q_EMIT hovered(readout(scene_, transform_.toMap(at)));
 }
 
-void MapView::mouseReleaseEvent(QMouseEvent*) {
-    dragged_from_.reset();
+void MapView::mouseReleaseEvent(QMouseEvent* event) {
     setCursor(Qt::CrossCursor);
+    const bool clicked = pressed_at_ && (event->position() - *pressed_at_).manhattanLength() < kClick_px;
+    pressed_at_.reset();
+    dragged_from_.reset();
+    if (clicked && event->button() == Qt::LeftButton) click(event->position());
+    stretch_from_.reset();
+}
+
+void MapView::click(QPointF screen_px) {
+    if (draws()) {
+        drawn_m_ << transform_.toMap(screen_px);
+        return showSketch({});
+    }
+    if (!scene_.survey) return;
+    if (const QString mark = markAt(scene_, transform_, screen_px); !mark.isEmpty()) {
+        selection_.selectItem(mark);
+    } else if (const auto hit = nearestOnTracks(scene_, transform_, screen_px);
+               hit && hit->distance_px <= kReach_px / 2) {
+        selection_.selectItem(QString::fromStdString(scene_.survey->tracks[hit->track].run_id));
+    } else {
+        selection_.clear();
+    }
+    scene_.place_m = transform_.toMap(screen_px);
+    update();
+    Q_EMIT placeAsked(*scene_.place_m);
+}
+
+void MapView::extendStretch(QPointF screen_px) {
+    const MapTrack& track = scene_.survey->tracks[stretch_from_->track];
+    const QString run = QString::fromStdString(track.run_id);
+    const auto hit = nearestOnTracks(scene_, transform_, screen_px, run);
+    if (!hit || hit->index == stretch_from_->index) return;
+    selection_.select({run, track.time_s[stretch_from_->index], track.time_s[hit->index]});
+}
+
+void MapView::showSketch(std::optional<QPointF> cursor_px) {
+    scene_.sketch.vertices_m = drawn_m_;
+    if (cursor_px) scene_.sketch.vertices_m << transform_.toMap(*cursor_px);
+    scene_.sketch.closed = drawsRing(tool_);
+    scene_.sketch.label =
+        measureText(scene_.sketch.vertices_m, tool_ == MapTool::Measure || drawsRing(tool_));
+    update();
+}
+
+void MapView::finishLine() {
+    const QPolygonF line = std::exchange(drawn_m_, {});
+    const qsizetype fewest = drawsRing(tool_) ? 3 : 2;
+    if (tool_ == MapTool::Measure) {
+        // What was measured stays in view until the next click.
+        scene_.sketch.vertices_m = line;
+        scene_.sketch.label = measureText(line, true);
+    } else {
+        scene_.sketch = {};
+    }
+    update();
+    if (line.size() >= fewest) Q_EMIT lineDrawn(tool_, line);
 }
 
 void MapView::mouseDoubleClickEvent(QMouseEvent* event) {
+    if (draws()) return finishLine();
+    if (event->button() != Qt::LeftButton) return;
     transform_.zoom(2.0, event->position());
     fitted_ = false;
     update();
@@ -170,28 +317,42 @@ void MapView::mouseDoubleClickEvent(QMouseEvent* event) {
 void MapView::keyPressEvent(QKeyEvent* event) {
     switch (event->key()) {
         case Qt::Key_Left:
-            transform_.pan({kKeyPan_px, 0});
-            break;
+            return moveBy({kKeyPan_px, 0});
         case Qt::Key_Right:
-            transform_.pan({-kKeyPan_px, 0});
-            break;
+            return moveBy({-kKeyPan_px, 0});
         case Qt::Key_Up:
-            transform_.pan({0, kKeyPan_px});
-            break;
+            return moveBy({0, kKeyPan_px});
         case Qt::Key_Down:
-            transform_.pan({0, -kKeyPan_px});
-            break;
+            return moveBy({0, -kKeyPan_px});
         case Qt::Key_Plus:
+        case Qt::Key_Equal:
             return zoomBy(kKeyZoom);
         case Qt::Key_Minus:
             return zoomBy(1.0 / kKeyZoom);
         case Qt::Key_Home:
             return fit();
+        case Qt::Key_Return:
+        case Qt::Key_Enter:
+            if (draws()) return finishLine();
+            break;
+        case Qt::Key_Backspace:
+            if (!drawn_m_.isEmpty()) {
+                drawn_m_.removeLast();
+                return showSketch({});
+            }
+            break;
+        case Qt::Key_Escape:
+            if (drawn_m_.isEmpty()) {
+                setTool(MapTool::Pan);
+                selection_.clear();
+            }
+            drawn_m_.clear();
+            scene_.sketch = {};
+            return update();
         default:
-            return QWidget::keyPressEvent(event);
+            break;
     }
-    fitted_ = false;
-    update();
+    QWidget::keyPressEvent(event);
 }
 
 void MapView::leaveEvent(QEvent*) {
@@ -207,6 +368,18 @@ QString readout(const MapScene& scene, QPointF map_m) {
     line += MapView::tr("   height %1 m").arg(QString::number(reading->height_m, 'f', 2));
     if (reading->sigma_m) line += QString(" ± %1 m").arg(QString::number(*reading->sigma_m, 'f', 2));
     return line;
+}
+
+QString measureText(const QPolygonF& vertices_m, bool closed) {
+    if (vertices_m.size() < 2) return {};
+    QString words = QString::number(length(vertices_m), 'f', 2) + " m";
+    if (closed && vertices_m.size() > 2)
+        words += MapView::tr(", area %1 m²").arg(QString::number(area(vertices_m), 'f', 1));
+    return words;
+}
+
+bool drawsRing(MapTool tool) {
+    return tool == MapTool::Boundary || tool == MapTool::Hole;
 }
 
 }  // namespace terrawalk::gui

@@ -11,11 +11,24 @@
 
 namespace terrawalk::gui {
 
-/// The map: wheel zooms about the cursor, drag or arrow keys pan, Home shows all.
+/// What a press of the left button does.
+enum class MapTool {
+    Pan,            ///< drag moves the map, a click asks what is there
+    SelectStretch,  ///< drag along a track
+    Measure,        ///< clicks; lengths and area
+    Profile,        ///< clicks; a double click or Enter ends the line
+    HardLine,       ///< the same for what is drawn
+    SoftLine,
+    Boundary,
+    Hole,
+};
+
+/// The map: wheel zooms about the cursor, drag or arrow keys pan, Home shows all. A tool that draws takes
+/// clicks: Enter or a double click ends it, Backspace takes the last vertex back, Escape all of them.
 class MapView : public QWidget {
     Q_OBJECT
   public:
-    explicit MapView(QWidget* parent = nullptr);
+    explicit MapView(Selection& selection, QWidget* parent = nullptr);
     ~MapView() override;
 
     /// Shows a survey, and results where there are some; where the place is another, all of it comes in view.
@@ -25,7 +38,9 @@ class MapView : public QWidget {
     void setRunVisible(const QString& run, bool visible);
     void setMarkVisible(const QString& mark, bool visible);
     void setEdgesVisible(bool visible);
-    void highlight(const QString& run_or_mark);
+    void setContoursVisible(bool visible);
+    void setEdits(const SurveyEdits& edits);
+    void setTool(MapTool tool);
     void fit();
     void centreOn(QPointF map_m);
     void zoomBy(double factor);
@@ -33,13 +48,20 @@ class MapView : public QWidget {
     [[nodiscard]] const MapScene& scene() const { return scene_; }
     [[nodiscard]] const MapTransform& transform() const { return transform_; }
     [[nodiscard]] RasterLayer layer() const { return layer_; }
-    /// Whether the layer that was asked for is still being coloured.
-    [[nodiscard]] bool colouringLayer() const { return watcher_.isRunning(); }
+    [[nodiscard]] MapTool tool() const { return tool_; }
+    /// Whether the layer that was asked for is still being coloured, or contours are being made.
+    [[nodiscard]] bool preparing() const {
+        return layer_watcher_.isRunning() || contour_watcher_.isRunning();
+    }
 
   Q_SIGNALS:
     /// What lies under the cursor; no height where there is no surface, nothing at all without a map.
     void hovered(const QString& readout);
     void layerShown();
+    void placeAsked(QPointF map_m);
+    /// A finished line of a drawing tool, map metres; rings without their first vertex again.
+    void lineDrawn(terrawalk::gui::MapTool tool, const QPolygonF& vertices_m);
+    void toolChanged(terrawalk::gui::MapTool tool);
 
   protected:
     void paintEvent(QPaintEvent* event) override;
@@ -54,16 +76,35 @@ class MapView : public QWidget {
 
   private:
     void colourLayer();
+    void makeContours();
     void toggle(QSet<QString>& hidden, const QString& name, bool visible);
+    void followSelection();
+    void moveBy(QPointF by_px);
+    void click(QPointF screen_px);
+    void extendStretch(QPointF screen_px);
+    void showSketch(std::optional<QPointF> cursor_px);
+    void finishLine();
+    [[nodiscard]] bool draws() const { return tool_ != MapTool::Pan && tool_ != MapTool::SelectStretch; }
+
+    Selection& selection_;
     MapScene scene_;
     MapTransform transform_;
     RasterLayer layer_ = RasterLayer::Height;
-    QFutureWatcher<std::shared_ptr<const RasterPicture>> watcher_;
+    MapTool tool_ = MapTool::Pan;
+    bool contours_wanted_ = false;
+    QFutureWatcher<std::shared_ptr<const RasterPicture>> layer_watcher_;
+    QFutureWatcher<std::shared_ptr<const std::vector<Contour>>> contour_watcher_;
+    std::optional<QPointF> pressed_at_;
     std::optional<QPointF> dragged_from_;
+    std::optional<TrackHit> stretch_from_;
+    QPolygonF drawn_m_;
     bool fitted_ = false;  ///< until a person moves the map, it keeps showing all
 };
 
 /// Coordinates, height and sigma of a place, as the status line shows them.
 [[nodiscard]] QString readout(const MapScene& scene, QPointF map_m);
+/// Length of a line, and area of what it encloses where it has three vertices, in words.
+[[nodiscard]] QString measureText(const QPolygonF& vertices_m, bool closed);
+[[nodiscard]] bool drawsRing(MapTool tool);
 
 }  // namespace terrawalk::gui

@@ -17,10 +17,6 @@ constexpr double kGapSteps = 2.5;
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMostGnssDots = 200'000;
 
-QString translated(const char* text) {
-    return QCoreApplication::translate("PlotData", text);
-}
-
 QString text(std::string_view utf8) {
     return QString::fromUtf8(utf8.data(), static_cast<qsizetype>(utf8.size()));
 }
@@ -85,7 +81,7 @@ void addChannels(Plot& plot, const ArrayLog& log, const QString& label, const QS
                  std::initializer_list<ChannelLine> channels) {
     PlotPanel panel{label, unit, decimals, {}, false};
     for (const ChannelLine& line : channels) {
-        auto series = channelSeries(log, line.channel, translated(line.name),
+        auto series = channelSeries(log, line.channel, QCoreApplication::translate("PlotData", line.name),
                                     static_cast<SeriesInk>(panel.series.size()), line.factor);
         if (!series.x.empty()) panel.series.push_back(std::move(series));
     }
@@ -99,68 +95,75 @@ Plot sensorPlot(PlotKind kind, const Run& run) {
     const ArrayLog& log = run.log;
     switch (kind) {
         case PlotKind::GnssPosition:
-            addChannels(plot, log, translated("Fix code"), {}, 0,
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Fix code"), {}, 0,
                         {{Channel::Fix, QT_TRANSLATE_NOOP("PlotData", "Fix")}});
-            addChannels(plot, log, translated("Ellipsoidal height"), "m", 2,
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Ellipsoidal height"), "m", 2,
                         {{Channel::EllipsoidalHeight, QT_TRANSLATE_NOOP("PlotData", "Height")}});
-            addChannels(plot, log, translated("Accuracy"), "m", 2,
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Accuracy"), "m", 2,
                         {{Channel::GnssHorizontalAccuracy, QT_TRANSLATE_NOOP("PlotData", "Plan")},
                          {Channel::GnssVerticalAccuracy, QT_TRANSLATE_NOOP("PlotData", "Height")}});
             break;
         case PlotKind::GnssVelocity:
-            addChannels(plot, log, translated("GNSS velocity"), "m/s", 2,
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "GNSS velocity"), "m/s", 2,
                         {{Channel::GnssVelocityEast, QT_TRANSLATE_NOOP("PlotData", "East")},
                          {Channel::GnssVelocityNorth, QT_TRANSLATE_NOOP("PlotData", "North")},
                          {Channel::GnssVelocityUp, QT_TRANSLATE_NOOP("PlotData", "Up")}});
             break;
         case PlotKind::Barometer:
-            addChannels(plot, log, translated("Pressure"), "hPa", 2,
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Pressure"), "hPa", 2,
                         {{Channel::Pressure, QT_TRANSLATE_NOOP("PlotData", "Pressure"), 0.01}});
-            addChannels(plot, log, translated("Temperature"), "°C", 1,
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Temperature"), "°C", 1,
                         {{Channel::Temperature, QT_TRANSLATE_NOOP("PlotData", "Temperature")}});
             break;
         case PlotKind::OpticalFlow:
-            addChannels(plot, log, translated("Optical flow"), "m/s", 2,
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Optical flow"), "m/s", 2,
                         {{Channel::FlowForward, QT_TRANSLATE_NOOP("PlotData", "Forward")},
                          {Channel::FlowLeft, QT_TRANSLATE_NOOP("PlotData", "Left")}});
-            addChannels(plot, log, translated("Quality"), {}, 0,
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Quality"), {}, 0,
                         {{Channel::FlowQuality, QT_TRANSLATE_NOOP("PlotData", "Quality")}});
             break;
         case PlotKind::Attitude:
-            addChannels(plot, log, translated("Tilt"), "°", 1,
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Tilt"), "°", 1,
                         {{Channel::Roll, QT_TRANSLATE_NOOP("PlotData", "Roll"), kDegrees},
                          {Channel::Pitch, QT_TRANSLATE_NOOP("PlotData", "Pitch"), kDegrees}});
-            addChannels(plot, log, translated("Heading"), "°", 0,
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Heading"), "°", 0,
                         {{Channel::Heading, QT_TRANSLATE_NOOP("PlotData", "Heading"), kDegrees}});
             break;
         case PlotKind::Acceleration:
-            addChannels(plot, log, translated("Acceleration"), "m/s²", 2,
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Acceleration"), "m/s²", 2,
                         {{Channel::AccelerationX, QT_TRANSLATE_NOOP("PlotData", "Forward")},
                          {Channel::AccelerationY, QT_TRANSLATE_NOOP("PlotData", "Left")},
                          {Channel::AccelerationZ, QT_TRANSLATE_NOOP("PlotData", "Up")}});
             break;
         case PlotKind::AngularRate:
-            addChannels(plot, log, translated("Angular rate"), "°/s", 1,
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Angular rate"), "°/s", 1,
                         {{Channel::AngularRateX, "x", kDegrees},
                          {Channel::AngularRateY, "y", kDegrees},
                          {Channel::AngularRateZ, "z", kDegrees}});
             break;
         default:
-            addChannels(plot, log, translated("Range to the ground"), "m", 3,
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Range to the ground"), "m", 3,
                         {{Channel::Range, QT_TRANSLATE_NOOP("PlotData", "Range")}});
-            addChannels(plot, log, translated("Strength"), {}, 0,
+            addChannels(plot, log, QCoreApplication::translate("PlotData", "Strength"), {}, 0,
                         {{Channel::RangeStrength, QT_TRANSLATE_NOOP("PlotData", "Strength")}});
             break;
     }
     if (plot.panels.empty()) {
-        plot.reason = translated("The log of run %1 has no readings of this sensor.").arg(text(run.id));
+        plot.reason =
+            QCoreApplication::translate("PlotData", "The log of run %1 has no readings of this sensor.")
+                .arg(text(run.id));
     }
     return plot;
 }
 
 /// The antenna's places as they were logged, one axis.
 PlotSeries gnssDots(const Survey& survey, const Run& run, int axis) {
-    PlotSeries dots{translated("GNSS, as logged"), SeriesStyle::Dots, SeriesInk::Quiet, {}, {}, {}};
+    PlotSeries dots{QCoreApplication::translate("PlotData", "GNSS, as logged"),
+                    SeriesStyle::Dots,
+                    SeriesInk::Quiet,
+                    {},
+                    {},
+                    {}};
     const LocalFrame frame = survey.frame();
     const std::size_t step = 1 + run.log.size() / kMostGnssDots;
     for (std::size_t i = 0; i < run.log.size(); i += step) {
@@ -199,13 +202,15 @@ double speedSigma(const TrajectoryEpoch& epoch) {
 
 Plot positionPlot(const Survey& survey, std::size_t run, const Trajectory& trajectory) {
     Plot plot;
-    const std::array<QString, 3> axes{translated("East"), translated("North"), translated("Height")};
+    const std::array<QString, 3> axes{QCoreApplication::translate("PlotData", "East"),
+                                      QCoreApplication::translate("PlotData", "North"),
+                                      QCoreApplication::translate("PlotData", "Height")};
     for (int axis = 0; axis < 3; ++axis) {
         PlotPanel panel{axes[static_cast<std::size_t>(axis)], "m", 2, {}, false};
         auto dots = gnssDots(survey, survey.runs[run], axis);
         if (!dots.x.empty()) panel.series.push_back(std::move(dots));
         panel.series.push_back(stateSeries(
-            trajectory, translated("Fused, 95 % band"), SeriesInk::First,
+            trajectory, QCoreApplication::translate("PlotData", "Fused, 95 % band"), SeriesInk::First,
             [axis](const TrajectoryEpoch& e) { return e.position_enu_m[axis]; },
             [axis](const TrajectoryEpoch& e) { return std::sqrt(e.covariance(axis, axis)); }));
         plot.panels.push_back(std::move(panel));
@@ -215,13 +220,13 @@ Plot positionPlot(const Survey& survey, std::size_t run, const Trajectory& traje
 
 Plot speedPlot(const Trajectory& trajectory) {
     Plot plot;
-    PlotPanel speed{translated("Speed over ground"), "m/s", 2, {}, false};
+    PlotPanel speed{QCoreApplication::translate("PlotData", "Speed over ground"), "m/s", 2, {}, false};
     speed.series.push_back(stateSeries(
-        trajectory, translated("Fused, 95 % band"), SeriesInk::First,
+        trajectory, QCoreApplication::translate("PlotData", "Fused, 95 % band"), SeriesInk::First,
         [](const TrajectoryEpoch& e) { return e.velocity_enu_mps.head<2>().norm(); }, speedSigma));
-    PlotPanel climb{translated("Climb"), "m/s", 2, {}, false};
+    PlotPanel climb{QCoreApplication::translate("PlotData", "Climb"), "m/s", 2, {}, false};
     climb.series.push_back(stateSeries(
-        trajectory, translated("Fused, 95 % band"), SeriesInk::First,
+        trajectory, QCoreApplication::translate("PlotData", "Fused, 95 % band"), SeriesInk::First,
         [](const TrajectoryEpoch& e) { return e.velocity_enu_mps.z(); },
         [](const TrajectoryEpoch& e) { return std::sqrt(e.covariance(5, 5)); }));
     plot.panels = {std::move(speed), std::move(climb)};
@@ -234,17 +239,17 @@ Plot sigmaPlot(const Trajectory& trajectory) {
         series.half_band.clear();
         return series;
     };
-    PlotPanel position{translated("Position, 1 σ"), "m", 3, {}, true};
-    position.series = {line(translated("Plan"), SeriesInk::First,
+    PlotPanel position{QCoreApplication::translate("PlotData", "Position, 1 σ"), "m", 3, {}, true};
+    position.series = {line(QCoreApplication::translate("PlotData", "Plan"), SeriesInk::First,
                             [](const TrajectoryEpoch& e) {
                                 return std::sqrt(std::max(e.covariance(0, 0), e.covariance(1, 1)));
                             }),
-                       line(translated("Height"), SeriesInk::Second,
+                       line(QCoreApplication::translate("PlotData", "Height"), SeriesInk::Second,
                             [](const TrajectoryEpoch& e) { return std::sqrt(e.covariance(2, 2)); })};
-    PlotPanel attitude{translated("Attitude, 1 σ"), "°", 2, {}, true};
-    attitude.series = {line(translated("Tilt"), SeriesInk::First,
+    PlotPanel attitude{QCoreApplication::translate("PlotData", "Attitude, 1 σ"), "°", 2, {}, true};
+    attitude.series = {line(QCoreApplication::translate("PlotData", "Tilt"), SeriesInk::First,
                             [](const TrajectoryEpoch& e) { return degrees(e.sigma_tilt_rad); }),
-                       line(translated("Heading"), SeriesInk::Second,
+                       line(QCoreApplication::translate("PlotData", "Heading"), SeriesInk::Second,
                             [](const TrajectoryEpoch& e) { return degrees(e.sigma_heading_rad); })};
     Plot plot;
     plot.panels = {std::move(position), std::move(attitude)};
@@ -257,7 +262,8 @@ PlotSeries guide(double from, double to, double y, const QString& name = {}) {
 
 Plot noFilter() {
     Plot plot;
-    plot.reason = translated(
+    plot.reason = QCoreApplication::translate(
+        "PlotData",
         "The method that was used has no filter that foretells readings. Choose another one and "
         "process again.");
     return plot;
@@ -268,8 +274,14 @@ Plot innovationPlot(const std::vector<SensorInnovations>& sensors) {
     Plot plot;
     for (const SensorInnovations& sensor : sensors) {
         if (sensor.readings.empty()) continue;
-        PlotSeries used{translated("used"), SeriesStyle::Dots, SeriesInk::First, {}, {}, {}};
-        PlotSeries gated{translated("beyond the gate"), SeriesStyle::Dots, SeriesInk::Second, {}, {}, {}};
+        PlotSeries used{
+            QCoreApplication::translate("PlotData", "used"), SeriesStyle::Dots, SeriesInk::First, {}, {}, {}};
+        PlotSeries gated{QCoreApplication::translate("PlotData", "beyond the gate"),
+                         SeriesStyle::Dots,
+                         SeriesInk::Second,
+                         {},
+                         {},
+                         {}};
         for (const Innovation& reading : sensor.readings) {
             PlotSeries& series = reading.used ? used : gated;
             series.x.push_back(reading.time_s);
@@ -285,7 +297,8 @@ Plot innovationPlot(const std::vector<SensorInnovations>& sensors) {
         plot.panels.push_back(std::move(panel));
     }
     if (plot.panels.empty()) return noFilter();
-    plot.note = translated(
+    plot.note = QCoreApplication::translate(
+        "PlotData",
         "Reading less what the filter foretold, over the sigma of that: 95 % between the lines is "
         "right.");
     return plot;
@@ -293,8 +306,12 @@ Plot innovationPlot(const std::vector<SensorInnovations>& sensors) {
 
 Plot consistencyPlot(const std::vector<SensorInnovations>& sensors) {
     Plot plot;
-    PlotSeries bars{
-        translated("Mean NIS over its degrees of freedom"), SeriesStyle::Bars, SeriesInk::First, {}, {}, {}};
+    PlotSeries bars{QCoreApplication::translate("PlotData", "Mean NIS over its degrees of freedom"),
+                    SeriesStyle::Bars,
+                    SeriesInk::First,
+                    {},
+                    {},
+                    {}};
     for (const SensorInnovations& sensor : sensors) {
         const SensorConsistency& sums = sensor.consistency;
         if (sums.n == 0 || !(sums.dof > 0.0)) continue;
@@ -304,11 +321,17 @@ Plot consistencyPlot(const std::vector<SensorInnovations>& sensors) {
     }
     if (bars.x.empty()) return noFilter();
     plot.bar_width = 0.5;
-    plot.x_label = translated("Sensor (readings used)");
+    plot.x_label = QCoreApplication::translate("PlotData", "Sensor (readings used)");
     const double last = static_cast<double>(plot.categories.size()) - 0.5;
-    plot.panels.push_back({translated("Mean NIS over degrees of freedom"), {}, 2, {std::move(bars)}, true});
-    plot.panels.back().series.push_back(guide(-0.5, last, 1.0, translated("right")));
-    plot.note = translated(
+    plot.panels.push_back({QCoreApplication::translate("PlotData", "Mean NIS over degrees of freedom"),
+                           {},
+                           2,
+                           {std::move(bars)},
+                           true});
+    plot.panels.back().series.push_back(
+        guide(-0.5, last, 1.0, QCoreApplication::translate("PlotData", "right")));
+    plot.note = QCoreApplication::translate(
+        "PlotData",
         "Normalised innovations squared. Above 1 the filter is too sure of this sensor, below 1 not "
         "sure enough; gates and weights make it smaller.");
     return plot;
@@ -323,7 +346,7 @@ Plot groundPlot(std::size_t run, const Products& products) {
         series.x.push_back(point.time_s);
         series.y.push_back(point.enu_m.z());
     }
-    PlotPanel panel{translated("Height of the ground"), "m", 2, {}, false};
+    PlotPanel panel{QCoreApplication::translate("PlotData", "Height of the ground"), "m", 2, {}, false};
     const bool some_used = !by_state[static_cast<std::size_t>(GroundPointState::Used)].x.empty();
     int refused = 0;
     // The used ones last, on top.
@@ -341,10 +364,11 @@ Plot groundPlot(std::size_t run, const Products& products) {
         series.sets_scale = state == GroundPointState::Used || !some_used;
         panel.series.push_back(std::move(series));
     }
-    plot.note =
-        translated("The heights fit the points that are used; those that were refused may lie beyond.");
+    plot.note = QCoreApplication::translate(
+        "PlotData", "The heights fit the points that are used; those that were refused may lie beyond.");
     if (panel.series.empty()) {
-        plot.reason = translated("This run has no ground points: its range finder gave nothing.");
+        plot.reason = QCoreApplication::translate(
+            "PlotData", "This run has no ground points: its range finder gave nothing.");
     } else {
         plot.panels.push_back(std::move(panel));
     }
@@ -354,7 +378,7 @@ Plot groundPlot(std::size_t run, const Products& products) {
 /// Errors over their predicted sigma, axis by axis, mark by mark.
 Plot normalisedErrors(const SurveyReport& report) {
     Plot plot;
-    plot.x_label = translated("Mark");
+    plot.x_label = QCoreApplication::translate("PlotData", "Mark");
     std::vector<QString> marks;
     const auto place = [&](const std::string& mark) {
         const QString wanted = text(mark);
@@ -369,16 +393,24 @@ Plot normalisedErrors(const SurveyReport& report) {
         QString name;
     };
     const std::array<Kind, 4> kinds{
-        Kind{Stage::Fused, Quantity::ArrayPosition, true, translated("Track, tied to the mark")},
-        Kind{Stage::Fused, Quantity::ArrayPosition, false, translated("Track")},
+        Kind{Stage::Fused, Quantity::ArrayPosition, true,
+             QCoreApplication::translate("PlotData", "Track, tied to the mark")},
+        Kind{Stage::Fused, Quantity::ArrayPosition, false, QCoreApplication::translate("PlotData", "Track")},
         Kind{Stage::Surface, Quantity::SurfaceHeight, true,
-             translated("Surface, mark used by the estimator")},
-        Kind{Stage::Surface, Quantity::SurfaceHeight, false, translated("Surface")}};
-    const std::array<QString, 3> axes{translated("East"), translated("North"), translated("Height")};
+             QCoreApplication::translate("PlotData", "Surface, mark used by the estimator")},
+        Kind{Stage::Surface, Quantity::SurfaceHeight, false,
+             QCoreApplication::translate("PlotData", "Surface")}};
+    const std::array<QString, 3> axes{QCoreApplication::translate("PlotData", "East"),
+                                      QCoreApplication::translate("PlotData", "North"),
+                                      QCoreApplication::translate("PlotData", "Height")};
     std::size_t n = 0, within = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        PlotPanel panel{
-            translated("%1, error over σ").arg(axes[static_cast<std::size_t>(axis)]), {}, 2, {}, false};
+        PlotPanel panel{QCoreApplication::translate("PlotData", "%1, error over σ")
+                            .arg(axes[static_cast<std::size_t>(axis)]),
+                        {},
+                        2,
+                        {},
+                        false};
         for (std::size_t k = 0; k < kinds.size(); ++k) {
             PlotSeries series{kinds[k].name, SeriesStyle::Dots, static_cast<SeriesInk>(3 - k), {}, {}, {}};
             for (const Residual& r : report.residuals) {
@@ -404,7 +436,8 @@ Plot normalisedErrors(const SurveyReport& report) {
         panel.series.push_back(guide(-0.5, last, 0.0));
     }
     if (n > 0) {
-        plot.note = translated(
+        plot.note = QCoreApplication::translate(
+                        "PlotData",
                         "%1 of %2 errors lie within 1.96 σ (%3 %); 95 % is right. Marks that the estimator "
                         "used do not count.")
                         .arg(within)
@@ -412,8 +445,8 @@ Plot normalisedErrors(const SurveyReport& report) {
                         .arg(100.0 * static_cast<double>(within) / static_cast<double>(n), 0, 'f', 0);
     }
     if (plot.panels.empty()) {
-        plot.reason =
-            translated("No errors at marks. Add marks to the survey's control.csv and process again.");
+        plot.reason = QCoreApplication::translate(
+            "PlotData", "No errors at marks. Add marks to the survey's control.csv and process again.");
     }
     return plot;
 }
@@ -429,8 +462,9 @@ std::vector<double> heightErrors(const SurveyReport& report, QString& of_what) {
         }
         if (errors.size() < 3) continue;
         std::sort(errors.begin(), errors.end());
-        of_what = stage == Stage::Surface ? translated("Height error of the surface")
-                                          : translated("Height error of the tracks");
+        of_what = stage == Stage::Surface
+                      ? QCoreApplication::translate("PlotData", "Height error of the surface")
+                      : QCoreApplication::translate("PlotData", "Height error of the tracks");
         return errors;
     }
     return {};
@@ -451,7 +485,8 @@ Moments momentsOf(const std::vector<double>& values) {
 
 Plot fewErrors() {
     Plot plot;
-    plot.reason = translated(
+    plot.reason = QCoreApplication::translate(
+        "PlotData",
         "Too few marks to show how errors spread: three at least, that the estimator did "
         "not use.");
     return plot;
@@ -469,7 +504,8 @@ Plot errorHistogram(const SurveyReport& report) {
     if (!(width > 0.0)) width = 0.01;
     const double first = std::floor(errors.front() / width);
     const auto bins = static_cast<std::size_t>(std::floor(errors.back() / width) - first) + 1;
-    PlotSeries bars{translated("Marks"), SeriesStyle::Bars, SeriesInk::First, {}, {}, {}};
+    PlotSeries bars{
+        QCoreApplication::translate("PlotData", "Marks"), SeriesStyle::Bars, SeriesInk::First, {}, {}, {}};
     for (std::size_t i = 0; i < bins; ++i) {
         bars.x.push_back((first + static_cast<double>(i) + 0.5) * width);
         bars.y.push_back(0.0);
@@ -477,8 +513,12 @@ Plot errorHistogram(const SurveyReport& report) {
     for (const double e : errors) {
         bars.y[std::min(bins - 1, static_cast<std::size_t>(std::floor(e / width) - first))] += 1.0;
     }
-    PlotSeries bell{
-        translated("Normal, of the same mean and SD"), SeriesStyle::Line, SeriesInk::Second, {}, {}, {}};
+    PlotSeries bell{QCoreApplication::translate("PlotData", "Normal, of the same mean and SD"),
+                    SeriesStyle::Line,
+                    SeriesInk::Second,
+                    {},
+                    {},
+                    {}};
     for (int i = -80; i <= 80 && m.sd > 0.0; ++i) {
         const double z = i / 20.0;
         bell.x.push_back(m.mean + z * m.sd);
@@ -488,10 +528,11 @@ Plot errorHistogram(const SurveyReport& report) {
     plot.x_label = what;
     plot.x_unit = "m";
     plot.bar_width = width;
-    plot.panels.push_back({translated("Marks"), {}, 0, {std::move(bars), std::move(bell)}, true});
+    plot.panels.push_back(
+        {QCoreApplication::translate("PlotData", "Marks"), {}, 0, {std::move(bars), std::move(bell)}, true});
     double square = 0.0;
     for (const double e : errors) square += e * e / n;
-    plot.note = translated("n %1, mean %2, SD %3, RMSE %4")
+    plot.note = QCoreApplication::translate("PlotData", "n %1, mean %2, SD %3, RMSE %4")
                     .arg(errors.size())
                     .arg(metres(m.mean), metres(m.sd), metres(std::sqrt(square)));
     return plot;
@@ -511,7 +552,8 @@ Plot quantiles(const SurveyReport& report) {
     QString what;
     const std::vector<double> errors = heightErrors(report, what);
     if (errors.empty()) return fewErrors();
-    PlotSeries dots{translated("Marks"), SeriesStyle::Dots, SeriesInk::First, {}, {}, {}};
+    PlotSeries dots{
+        QCoreApplication::translate("PlotData", "Marks"), SeriesStyle::Dots, SeriesInk::First, {}, {}, {}};
     for (std::size_t i = 0; i < errors.size(); ++i) {
         dots.x.push_back(normalQuantile((static_cast<double>(i) + 0.5) / static_cast<double>(errors.size())));
         dots.y.push_back(errors[i]);
@@ -522,16 +564,17 @@ Plot quantiles(const SurveyReport& report) {
     for (const double e : errors) off.push_back(std::abs(e - middle));
     const double nmad = 1.4826 * medianOf(std::move(off));
     const double end = std::max(2.0, dots.x.back() * 1.1);
-    PlotSeries line{translated("Normal, of the same median and NMAD"),
+    PlotSeries line{QCoreApplication::translate("PlotData", "Normal, of the same median and NMAD"),
                     SeriesStyle::Guide,
                     SeriesInk::Second,
                     {-end, end},
                     {middle - end * nmad, middle + end * nmad},
                     {}};
     Plot plot;
-    plot.x_label = translated("Quantile of the normal distribution (σ)");
+    plot.x_label = QCoreApplication::translate("PlotData", "Quantile of the normal distribution (σ)");
     plot.panels.push_back({what, "m", 2, {std::move(dots), std::move(line)}, false});
-    plot.note = translated("n %1, median %2, NMAD %3. Ends that leave the line are heavier than normal.")
+    plot.note = QCoreApplication::translate(
+                    "PlotData", "n %1, median %2, NMAD %3. Ends that leave the line are heavier than normal.")
                     .arg(errors.size())
                     .arg(metres(middle), metres(nmad));
     return plot;
@@ -540,14 +583,16 @@ Plot quantiles(const SurveyReport& report) {
 Plot crossValidation(const SurveyReport& report) {
     Plot plot;
     if (!report.surface.comparison) {
-        plot.reason = translated(
+        plot.reason = QCoreApplication::translate(
+            "PlotData",
             "Ways of interpolating were not compared. Set the surface's method to auto and "
             "process again.");
         return plot;
     }
     const InterpolationComparison& comparison = *report.surface.comparison;
-    plot.x_label = translated("Method, best first");
-    PlotPanel panel{translated("Error of points left out, RMSE"), "m", 3, {}, true};
+    plot.x_label = QCoreApplication::translate("PlotData", "Method, best first");
+    PlotPanel panel{
+        QCoreApplication::translate("PlotData", "Error of points left out, RMSE"), "m", 3, {}, true};
     for (const std::string& method : comparison.ranking) plot.categories << text(method);
     const double share = 0.8 / static_cast<double>(std::max<std::size_t>(1, comparison.hold_outs.size()));
     plot.bar_width = share;
@@ -565,7 +610,7 @@ Plot crossValidation(const SurveyReport& report) {
         panel.series.push_back(std::move(bars));
     }
     plot.panels.push_back(std::move(panel));
-    plot.note = translated("Points foretold from the others. Used: %1. Seed %2.")
+    plot.note = QCoreApplication::translate("PlotData", "Points foretold from the others. Used: %1. Seed %2.")
                     .arg(text(report.surface.method_used))
                     .arg(comparison.seed);
     return plot;
@@ -574,19 +619,28 @@ Plot crossValidation(const SurveyReport& report) {
 Plot tuningPlot(const SurveyReport& report) {
     Plot plot;
     if (!report.tuning) {
-        plot.reason = translated("Nothing was tuned. Tune the survey on its own marks to compare here.");
+        plot.reason = QCoreApplication::translate(
+            "PlotData", "Nothing was tuned. Tune the survey on its own marks to compare here.");
         return plot;
     }
     const TuningRecord& tuning = *report.tuning;
-    plot.categories << translated("on its marks");
-    plot.x_label = translated("Loss");
+    plot.categories << QCoreApplication::translate("PlotData", "on its marks");
+    plot.x_label = QCoreApplication::translate("PlotData", "Loss");
     plot.bar_width = 0.35;
-    PlotSeries before{
-        translated("Before"), SeriesStyle::Bars, SeriesInk::Quiet, {-0.2}, {tuning.loss_before}, {}};
-    PlotSeries after{
-        translated("After"), SeriesStyle::Bars, SeriesInk::First, {0.2}, {tuning.loss_after}, {}};
+    PlotSeries before{QCoreApplication::translate("PlotData", "Before"),
+                      SeriesStyle::Bars,
+                      SeriesInk::Quiet,
+                      {-0.2},
+                      {tuning.loss_before},
+                      {}};
+    PlotSeries after{QCoreApplication::translate("PlotData", "After"),
+                     SeriesStyle::Bars,
+                     SeriesInk::First,
+                     {0.2},
+                     {tuning.loss_after},
+                     {}};
     if (tuning.left_out_before && tuning.left_out_after) {
-        plot.categories << translated("on marks left out");
+        plot.categories << QCoreApplication::translate("PlotData", "on marks left out");
         before.x.push_back(0.8);
         before.y.push_back(*tuning.left_out_before);
         after.x.push_back(1.2);
@@ -594,7 +648,7 @@ Plot tuningPlot(const SurveyReport& report) {
     }
     plot.panels.push_back({text(tuning.loss), {}, 3, {std::move(before), std::move(after)}, true});
     plot.note = text(tuning.decision) + " " +
-                translated("%1, %2 evaluations, seed %3.")
+                QCoreApplication::translate("PlotData", "%1, %2 evaluations, seed %3.")
                     .arg(text(tuning.optimiser))
                     .arg(tuning.evaluations)
                     .arg(tuning.seed);
@@ -603,7 +657,7 @@ Plot tuningPlot(const SurveyReport& report) {
 
 Plot notProcessed() {
     Plot plot;
-    plot.reason = translated("Process the survey to see this.");
+    plot.reason = QCoreApplication::translate("PlotData", "Process the survey to see this.");
     return plot;
 }
 
@@ -667,52 +721,52 @@ const std::vector<PlotKind>& allPlots() {
 QString plotName(PlotKind kind) {
     switch (kind) {
         case PlotKind::GnssPosition:
-            return translated("GNSS position");
+            return QCoreApplication::translate("PlotData", "GNSS position");
         case PlotKind::GnssVelocity:
-            return translated("GNSS velocity");
+            return QCoreApplication::translate("PlotData", "GNSS velocity");
         case PlotKind::Barometer:
-            return translated("Barometer");
+            return QCoreApplication::translate("PlotData", "Barometer");
         case PlotKind::OpticalFlow:
-            return translated("Optical flow");
+            return QCoreApplication::translate("PlotData", "Optical flow");
         case PlotKind::Attitude:
-            return translated("Attitude");
+            return QCoreApplication::translate("PlotData", "Attitude");
         case PlotKind::Acceleration:
-            return translated("Acceleration");
+            return QCoreApplication::translate("PlotData", "Acceleration");
         case PlotKind::AngularRate:
-            return translated("Angular rate");
+            return QCoreApplication::translate("PlotData", "Angular rate");
         case PlotKind::Range:
-            return translated("Range finder");
+            return QCoreApplication::translate("PlotData", "Range finder");
         case PlotKind::Position:
-            return translated("Position");
+            return QCoreApplication::translate("PlotData", "Position");
         case PlotKind::Speed:
-            return translated("Speed");
+            return QCoreApplication::translate("PlotData", "Speed");
         case PlotKind::Sigma:
-            return translated("Sigmas");
+            return QCoreApplication::translate("PlotData", "Sigmas");
         case PlotKind::GroundHeights:
-            return translated("Ground points");
+            return QCoreApplication::translate("PlotData", "Ground points");
         case PlotKind::Innovations:
-            return translated("Innovations");
+            return QCoreApplication::translate("PlotData", "Innovations");
         case PlotKind::Consistency:
-            return translated("Consistency (NIS)");
+            return QCoreApplication::translate("PlotData", "Consistency (NIS)");
         case PlotKind::NormalisedErrors:
-            return translated("Errors over sigma");
+            return QCoreApplication::translate("PlotData", "Errors over sigma");
         case PlotKind::ErrorHistogram:
-            return translated("Histogram of errors");
+            return QCoreApplication::translate("PlotData", "Histogram of errors");
         case PlotKind::QuantileQuantile:
-            return translated("Q-Q of errors");
+            return QCoreApplication::translate("PlotData", "Q-Q of errors");
         case PlotKind::CrossValidation:
-            return translated("Cross-validation");
+            return QCoreApplication::translate("PlotData", "Cross-validation");
         case PlotKind::Tuning:
-            return translated("Tuning");
+            return QCoreApplication::translate("PlotData", "Tuning");
     }
     return {};
 }
 
 QString plotGroup(PlotKind kind) {
-    if (kind <= PlotKind::Range) return translated("Sensors");
-    if (kind <= PlotKind::Consistency) return translated("Fused run");
-    if (kind <= PlotKind::QuantileQuantile) return translated("Errors at marks");
-    return translated("Choices");
+    if (kind <= PlotKind::Range) return QCoreApplication::translate("PlotData", "Sensors");
+    if (kind <= PlotKind::Consistency) return QCoreApplication::translate("PlotData", "Fused run");
+    if (kind <= PlotKind::QuantileQuantile) return QCoreApplication::translate("PlotData", "Errors at marks");
+    return QCoreApplication::translate("PlotData", "Choices");
 }
 
 bool plotsOneRun(PlotKind kind) {
@@ -742,11 +796,12 @@ Plot plotOf(PlotKind kind, std::size_t run, const Survey& survey, const Products
     Plot plot = unnamedPlot(kind, run, survey, products);
     plot.title = plotName(kind);
     if (plotsOneRun(kind) && run < survey.runs.size()) {
-        plot.title = translated("%1, run %2").arg(plot.title, text(survey.runs[run].id));
+        plot.title =
+            QCoreApplication::translate("PlotData", "%1, run %2").arg(plot.title, text(survey.runs[run].id));
     }
     if (plotsOneRun(kind) && plot.categories.isEmpty()) {
         plot.over_time = true;
-        plot.x_label = translated("Time of the log");
+        plot.x_label = QCoreApplication::translate("PlotData", "Time of the log");
         plot.x_unit = "s";
     }
     return plot;

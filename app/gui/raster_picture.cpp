@@ -13,10 +13,6 @@ namespace {
 
 constexpr int kSmallestOverview_px = 256;
 
-QString translated(const char* text) {
-    return QCoreApplication::translate("RasterPicture", text);
-}
-
 std::vector<QColor> colours(const std::vector<Colour>& ramp) {
     std::vector<QColor> list;
     for (const Colour& c : ramp) list.emplace_back(c[0], c[1], c[2]);
@@ -100,7 +96,9 @@ RasterPicture sources(const Products& products) {
              0.0,
              false,
              {},
-             {translated("measured"), translated("interpolated"), translated("extrapolated")}}};
+             {QCoreApplication::translate("RasterPicture", "measured"),
+              QCoreApplication::translate("RasterPicture", "interpolated"),
+              QCoreApplication::translate("RasterPicture", "extrapolated")}}};
 }
 
 }  // namespace
@@ -113,7 +111,8 @@ RasterPicture rasterPicture(const Products& products, RasterLayer layer) {
         case RasterLayer::Uncertainty:
             return values(products, layer, products.uncertainty->sigmas_m, "m");
         case RasterLayer::Density:
-            return values(products, layer, products.uncertainty->density_per_m2, translated("points/m²"));
+            return values(products, layer, products.uncertainty->density_per_m2,
+                          QCoreApplication::translate("RasterPicture", "points/m²"));
         case RasterLayer::Source:
             return sources(products);
         case RasterLayer::None:

@@ -4,6 +4,14 @@
 
 namespace terrawalk::gui {
 
+RunSettings::RunSettings(const PipelineConfig& config) {
+    if (config.tuning) tuning_ = std::make_shared<const TuningRecord>(*config.tuning);
+    for (const ParameterInfo& info : knownParameters()) {
+        std::string text = settingText(config, info.key);
+        if (text != info.default_value) changes_[info.key] = std::move(text);
+    }
+}
+
 Result<void> RunSettings::set(const std::string& key, const std::string& text) {
     PipelineConfig trial = config();
     if (auto done = applySetting(trial, key + "=" + text); !done) return done;
@@ -13,6 +21,16 @@ Result<void> RunSettings::set(const std::string& key, const std::string& text) {
         changes_[key] = text;
     }
     return {};
+}
+
+void RunSettings::setEdits(const SurveyEdits& edits) {
+    PipelineConfig edited;
+    edited.edits = edits;
+    for (const ParameterInfo& info : knownParameters()) {
+        if (!info.key.starts_with("edits.")) continue;
+        // What the program wrote itself is permitted.
+        static_cast<void>(set(info.key, settingText(edited, info.key)));
+    }
 }
 
 std::string RunSettings::text(const std::string& key) const {
@@ -26,6 +44,7 @@ PipelineConfig RunSettings::config() const {
         // set() has tried it already.
         static_cast<void>(applySetting(config, assignment));
     }
+    if (tuning_) config.tuning = *tuning_;
     return config;
 }
 
@@ -33,6 +52,14 @@ std::vector<std::string> RunSettings::assignments() const {
     std::vector<std::string> list;
     for (const auto& [key, text] : changes_) list.push_back(key + "=" + text);
     return list;
+}
+
+std::vector<std::string> RunSettings::differences(const RunSettings& other) const {
+    std::vector<std::string> keys;
+    for (const ParameterInfo& info : knownParameters()) {
+        if (text(info.key) != other.text(info.key)) keys.push_back(info.key);
+    }
+    return keys;
 }
 
 const std::vector<ParameterInfo>& knownParameters() {

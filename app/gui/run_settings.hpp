@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,17 +15,27 @@ namespace terrawalk::gui {
 /// after --set, so that both programs read the same number. Never holds a value that is not permitted.
 class RunSettings {
   public:
+    RunSettings() = default;
+    /// What differs from the defaults.
+    explicit RunSettings(const PipelineConfig& config);
+
     /// The default's own text takes a change back. Errors: Usage, as applySetting().
     [[nodiscard]] Result<void> set(const std::string& key, const std::string& text);
+    void setEdits(const SurveyEdits& edits);
     [[nodiscard]] std::string text(const std::string& key) const;
     [[nodiscard]] bool changed(const std::string& key) const { return changes_.contains(key); }
     [[nodiscard]] PipelineConfig config() const;
     /// "key=value", by key.
     [[nodiscard]] std::vector<std::string> assignments() const;
+    /// Keys of which the other has another value.
+    [[nodiscard]] std::vector<std::string> differences(const RunSettings& other) const;
+    /// Whether values come from a tuning: its record goes with them, and no command line can say it.
+    [[nodiscard]] bool tuned() const { return tuning_ != nullptr; }
     bool operator==(const RunSettings&) const = default;
 
   private:
     std::map<std::string, std::string> changes_;
+    std::shared_ptr<const TuningRecord> tuning_;
 };
 
 /// Every parameter there is, in the order of `terrawalk config describe`; read once.

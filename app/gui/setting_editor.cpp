@@ -48,6 +48,7 @@ SettingEditor::SettingEditor(SurveySession& session, const QString& key, QWidget
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(kGrid_px / 2);
     setToolTip(settingHelp(key));
+    setWhatsThis(toolTip());
     const QString range = text(parameterInfo(key.toStdString()).range);
     if (range == "true, false") {
         buildFlag();
@@ -103,7 +104,8 @@ void SettingEditor::buildNumber() {
     layout()->addWidget(field);
     auto* unit = new QLabel(settingUnit(key_), this);
     unit->setObjectName("quiet");
-    unit->setMinimumWidth(3 * kGrid_px);
+    unit->setFixedWidth(4 * kGrid_px);
+    field->setMinimumWidth(7 * kGrid_px);
     layout()->addWidget(unit);
     const auto follow = [this, field](const QString& key) {
         if (key != key_) return;

@@ -64,8 +64,9 @@ StartPage::StartPage(QWidget* parent) : QWidget(parent) {
     head->addWidget(picture);
     auto* words = new QVBoxLayout;
     words->addWidget(label("Terrawalk", "title"));
-    words->addWidget(
-        label(tr("From a walk with the sensor array to a terrain model that you can sign for."), "quiet"));
+    auto* slogan = label(tr("From a walk to a terrain model that you can sign for."), "quiet");
+    slogan->setWordWrap(false);
+    words->addWidget(slogan);
     head->addLayout(words, 1);
     column->addLayout(head);
     column->addSpacing(3 * kGrid_px);

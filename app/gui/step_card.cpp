@@ -30,24 +30,22 @@ void addSetting(QFormLayout& form, SurveySession& session, const QString& key, c
     name->setToolTip(editor->toolTip());
     name->setBuddy(editor);
     name->setWordWrap(wrapped);
-    name->setMinimumWidth(wrapped ? 0 : 0);
     form.addRow(name, editor);
 }
 
 }  // namespace
 
 StepCard::StepCard(SurveySession& session, const Step& step, QWidget* parent)
-    : QFrame(parent), session_(session), further_keys_(furtherSettings(step)) {
+    : QFrame(parent), session_(session), further_keys_(furtherSettings(step)), icon_name_(step.icon) {
     setObjectName("card");
     body_ = new QVBoxLayout(this);
     body_->setContentsMargins(12, kGrid_px, 12, kGrid_px);
     body_->setSpacing(kGrid_px);
     auto* head = new QHBoxLayout;
     head->setSpacing(kGrid_px);
-    auto* picture = new QLabel;
-    picture->setPixmap(icon(step.icon, accentColour()).pixmap(16, 16));
-    picture->setFixedWidth(16);
-    head->addWidget(picture);
+    picture_ = new QLabel;
+    picture_->setFixedWidth(16);
+    head->addWidget(picture_);
     auto* title = new QLabel(step.title);
     title->setObjectName("cardTitle");
     head->addWidget(title);
@@ -60,16 +58,22 @@ StepCard::StepCard(SurveySession& session, const Step& step, QWidget* parent)
         for (const auto& [key, label] : step.important) addSetting(*form, session, key, label, false);
         body_->addLayout(form);
     }
+    themeChanged();
     if (further_keys_.isEmpty()) return;
     fold_ = new QToolButton;
     fold_->setObjectName("fold");
     fold_->setCheckable(true);
     fold_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-    fold_->setIcon(icon("closed", quietColour()));
     fold_->setIconSize({12, 12});
     fold_->setText(tr("%n more setting(s)", nullptr, static_cast<int>(further_keys_.size())));
     connect(fold_, &QToolButton::toggled, this, &StepCard::setUnfolded);
     body_->addWidget(fold_);
+    themeChanged();
+}
+
+void StepCard::themeChanged() {
+    picture_->setPixmap(icon(icon_name_, accentColour()).pixmap(16, 16));
+    if (fold_ != nullptr) fold_->setIcon(icon(fold_->isChecked() ? "opened" : "closed", quietColour()));
 }
 
 void StepCard::setState(const QString& state, const QColor& colour) {

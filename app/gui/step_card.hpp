@@ -23,12 +23,15 @@ class StepCard : public QFrame {
     /// A widget below the settings.
     void addBody(QWidget* widget);
     void setUnfolded(bool unfolded);
+    void themeChanged();
 
   private:
     void buildFurther();
     SurveySession& session_;
     QStringList further_keys_;
     QVBoxLayout* body_ = nullptr;
+    QString icon_name_;
+    QLabel* picture_ = nullptr;
     QLabel* state_ = nullptr;
     QToolButton* fold_ = nullptr;
     QWidget* further_ = nullptr;  ///< made when it is first unfolded: there may be a hundred settings

@@ -7,39 +7,34 @@
 
 namespace terrawalk::gui {
 
-namespace {
-QString translated(const char* text) {
-    return QCoreApplication::translate("Steps", text);
-}
-}  // namespace
-
 std::vector<Step> steps() {
     return {
-        {StepKind::Import, translated("Import"), "import", {}, {}},
+        {StepKind::Import, QCoreApplication::translate("Steps", "Import"), "import", {}, {}},
+        {StepKind::Tune, QCoreApplication::translate("Steps", "Tune"), "tune", {}, {}},
         {StepKind::Fuse,
-         translated("Fuse"),
+         QCoreApplication::translate("Steps", "Fuse"),
          "fuse",
-         {{"fusion.method", translated("Method")},
-          {"fusion.gnss.use_height", translated("GNSS heights")},
-          {"fusion.barometer.use", translated("Barometer")},
-          {"fusion.flow.use", translated("Optical flow")}},
+         {{"fusion.method", QCoreApplication::translate("Steps", "Method")},
+          {"fusion.gnss.use_height", QCoreApplication::translate("Steps", "GNSS heights")},
+          {"fusion.barometer.use", QCoreApplication::translate("Steps", "Barometer")},
+          {"fusion.flow.use", QCoreApplication::translate("Steps", "Optical flow")}},
          {"fusion."}},
         {StepKind::Clean,
-         translated("Clean"),
+         QCoreApplication::translate("Steps", "Clean"),
          "clean",
-         {{"ground.greatest_range_m", translated("Longest range")},
-          {"surface.clean.statistical.use", translated("Drop outliers")},
-          {"surface.clean.above_ground.use", translated("Drop plants")}},
+         {{"ground.greatest_range_m", QCoreApplication::translate("Steps", "Longest range")},
+          {"surface.clean.statistical.use", QCoreApplication::translate("Steps", "Drop outliers")},
+          {"surface.clean.above_ground.use", QCoreApplication::translate("Steps", "Drop plants")}},
          {"ground.", "surface.clean."}},
         {StepKind::Surface,
-         translated("Surface"),
+         QCoreApplication::translate("Steps", "Surface"),
          "surface",
-         {{"surface.method", translated("Method")},
-          {"surface.cell_m", translated("Cell size (0: by density)")},
-          {"surface.terrace_edges", translated("Terrace edges")}},
+         {{"surface.method", QCoreApplication::translate("Steps", "Method")},
+          {"surface.cell_m", QCoreApplication::translate("Steps", "Cell size")},
+          {"surface.terrace_edges", QCoreApplication::translate("Steps", "Terrace edges")}},
          {"surface."}},
-        {StepKind::Check, translated("Check"), "check", {}, {"report.", "seed"}},
-        {StepKind::Export, translated("Export"), "export", {}, {}},
+        {StepKind::Check, QCoreApplication::translate("Steps", "Check"), "check", {}, {"report.", "seed"}},
+        {StepKind::Export, QCoreApplication::translate("Steps", "Export"), "export", {}, {}},
     };
 }
 

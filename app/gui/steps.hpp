@@ -7,7 +7,7 @@
 
 namespace terrawalk::gui {
 
-enum class StepKind { Import, Fuse, Clean, Surface, Check, Export };
+enum class StepKind { Import, Tune, Fuse, Clean, Surface, Check, Export };
 
 /// A step of the way from logs to a DEM, with the settings that belong to it.
 struct Step {

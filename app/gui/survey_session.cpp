@@ -1,32 +1,58 @@
 #include "app/gui/survey_session.hpp"
 
+#include <QCryptographicHash>
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QSaveFile>
+#include <QStandardPaths>
 #include <QUndoCommand>
 #include <utility>
 
+#include "app/gui/accuracy_words.hpp"
+#include "app/gui/setting_editor.hpp"
 #include "app/pipeline/jobs.hpp"
+#include "app/pipeline/tune_jobs.hpp"
 
 namespace terrawalk::gui {
 
 namespace fs = std::filesystem;
 
-/// One setting, there and back.
-class SettingCommand final : public QUndoCommand {
+/// All settings, there and back.
+class SettingsCommand final : public QUndoCommand {
   public:
-    SettingCommand(SurveySession& session, QString key, QString before, QString after)
-        : QUndoCommand(key),
-          session_(session),
-          key_(std::move(key)),
-          before_(std::move(before)),
-          after_(std::move(after)) {}
-    void undo() override { session_.put(key_, before_); }
-    void redo() override { session_.put(key_, after_); }
+    SettingsCommand(SurveySession& session, const QString& what, RunSettings before, RunSettings after)
+        : QUndoCommand(what), session_(session), before_(std::move(before)), after_(std::move(after)) {}
+    void undo() override { session_.put(before_); }
+    void redo() override { session_.put(after_); }
 
   private:
     SurveySession& session_;
-    QString key_, before_, after_;
+    RunSettings before_, after_;
 };
 
 namespace {
+
+/// Older runs go: each holds a surface.
+constexpr std::size_t kKeptRuns = 4;
+constexpr int kAutosaveDelay_ms = 800;
+
+QString text(const std::string& utf8) {
+    return QString::fromStdString(utf8);
+}
+
+/// Whole or not at all.
+bool writeWhole(const fs::path& path, const std::string& content, QString& problem) {
+    QSaveFile file(text(path.string()));
+    if (file.open(QIODevice::WriteOnly) &&
+        file.write(content.data(), static_cast<qint64>(content.size())) >= 0 && file.commit()) {
+        return true;
+    }
+    problem = file.errorString();
+    return false;
+}
+
+}  // namespace
 
 QString shellWord(const QString& word) {
     for (const QChar c : word) {
@@ -38,21 +64,18 @@ QString shellWord(const QString& word) {
     return word.isEmpty() ? QStringLiteral("''") : word;
 }
 
-QString text(const std::string& utf8) {
-    return QString::fromStdString(utf8);
-}
-
-}  // namespace
-
 SurveySession::SurveySession(QObject* parent) : QObject(parent), job_(this) {
     connect(&job_, &BackgroundJob::told, this, [this](Severity severity, const QString& line) {
         Q_EMIT told(severity == Severity::Warning ? MessageKind::Warning : MessageKind::Info, line);
     });
+    autosave_.setSingleShot(true);
+    autosave_.setInterval(kAutosaveDelay_ms);
+    connect(&autosave_, &QTimer::timeout, this, &SurveySession::autosave);
 }
 
 void SurveySession::fail(const Error& error) {
     if (error.kind == ErrorKind::Cancelled) {
-        Q_EMIT told(MessageKind::Info, tr("Cancelled."));
+        Q_EMIT told(MessageKind::Info, tr("Cancelled; what was there before is still there."));
     } else {
         Q_EMIT told(MessageKind::Error, text(error.text()));
     }
@@ -64,91 +87,259 @@ void SurveySession::open(const fs::path& path, bool then_process) {
         Result<SurveyMap> map = opened ? loggedMap(*opened, stop) : tl::unexpected(opened.error());
         return [this, path, then_process, opened = std::move(opened), map = std::move(map)]() mutable {
             if (!map) return fail(map.error());
-            path_ = path;
-            survey_ = std::make_shared<const Survey>(std::move(*opened));
-            map_ = std::make_shared<const SurveyMap>(std::move(*map));
-            products_.reset();
-            Q_EMIT surveyChanged();
-            Q_EMIT productsChanged();
-            Q_EMIT told(MessageKind::Done, tr("Opened %1.").arg(text(survey_->name)));
-            for (const std::string& note : survey_->notes) Q_EMIT told(MessageKind::Info, text(note));
+            finishOpening(path, std::move(*opened), std::move(*map));
             if (then_process) process();
         };
     });
+}
+
+void SurveySession::finishOpening(const fs::path& path, Survey survey, SurveyMap map) {
+    if (autosave_.isActive()) autosave();
+    path_ = path;
+    survey_ = std::make_shared<const Survey>(std::move(survey));
+    logged_map_ = std::make_shared<const SurveyMap>(std::move(map));
+    history_.clear();
+    undo_.clear();
+    selection_.clear();
+    settings_ = RunSettings();
+    readSaved();
+    Q_EMIT surveyChanged();
+    Q_EMIT productsChanged();
+    Q_EMIT settingsChanged();
+    Q_EMIT told(MessageKind::Done, tr("Opened %1.").arg(text(survey_->name)));
+    for (const std::string& note : survey_->notes) Q_EMIT told(MessageKind::Info, text(note));
+    recover();
+    Q_EMIT savedChanged();
 }
 
 void SurveySession::process() {
     if (!survey_) return;
     job_.start(
         [this, survey = survey_, settings = settings_](Progress& progress, const std::stop_token& stop) {
-            auto made = terrawalk::process(*survey, settings.config(), progress, stop);
-            Result<SurveyMap> map = made ? fusedMap(*survey, *made, stop) : tl::unexpected(made.error());
-            return [this, settings, made = std::move(made), map = std::move(map)]() mutable {
+            const PipelineConfig config = settings.config();
+            auto edited = withEdits(*survey, config.edits);
+            Result<Products> made =
+                edited ? terrawalk::process(*edited, config, progress, stop) : tl::unexpected(edited.error());
+            Result<SurveyMap> map = made ? fusedMap(*edited, *made, stop) : tl::unexpected(made.error());
+            return [this, settings, edited = std::move(edited), made = std::move(made),
+                    map = std::move(map)]() mutable {
                 if (!map) return fail(map.error());
-                products_ = std::make_shared<const Products>(std::move(*made));
-                map_ = std::make_shared<const SurveyMap>(std::move(*map));
-                processed_with_ = settings;
-                Q_EMIT productsChanged();
-                for (const std::string& line : products_->report.warnings) {
-                    Q_EMIT told(MessageKind::Warning, text(line));
-                }
-                const SurveyReport& report = products_->report;
-                const QString figure = report.figures.empty() ? QString()
-                                                              : tr(" %1: %2.")
-                                                                    .arg(text(report.figures.front().label),
-                                                                         text(report.figures.front().value));
-                Q_EMIT told(MessageKind::Done, tr("Processed.") + figure);
+                finishRun({QDateTime::currentDateTime(), settings,
+                           std::make_shared<const Survey>(std::move(*edited)),
+                           std::make_shared<const Products>(std::move(*made)),
+                           std::make_shared<const SurveyMap>(std::move(*map))});
             };
         });
 }
 
-void SurveySession::exportTo(const fs::path& folder) {
-    if (!products_) return;
+void SurveySession::finishRun(FinishedRun run) {
+    const bool had_one = !history_.empty();
+    const QString change =
+        had_one ? changeOfFigures(history_[shown_].products->report, run.products->report) : QString();
+    if (history_.size() == kKeptRuns) history_.erase(history_.begin());
+    history_.push_back(std::move(run));
+    shown_ = history_.size() - 1;
+    Q_EMIT productsChanged();
+    const SurveyReport& report = products()->report;
+    for (const std::string& line : report.warnings) Q_EMIT told(MessageKind::Warning, text(line));
+    const QString figure =
+        report.figures.empty()
+            ? QString()
+            : tr(" %1: %2.").arg(text(report.figures.front().label), text(report.figures.front().value));
+    Q_EMIT told(MessageKind::Done, tr("Processed.") + figure + (change.isEmpty() ? QString() : " " + change));
+}
+
+void SurveySession::tune() {
+    if (!survey_) return;
+    job_.start([this, survey = survey_, config = settings_.config()](Progress& progress,
+                                                                     const std::stop_token& stop) {
+        auto edited = withEdits(*survey, config.edits);
+        TuneOptions options;
+        options.seed = config.seed;
+        Result<PipelineConfig> tuned = edited ? tunedWhereBetter(*edited, config, options, progress, stop)
+                                              : tl::unexpected(edited.error());
+        return [this, tuned = std::move(tuned)] {
+            if (!tuned) return fail(tuned.error());
+            changeSettings(RunSettings(*tuned), tr("tune"));
+            if (tuned->tuning) Q_EMIT told(MessageKind::Done, text(tuned->tuning->decision));
+        };
+    });
+}
+
+void SurveySession::exportTo(const fs::path& folder, const ExportRequest& further) {
+    if (history_.empty()) return;
     Provenance provenance;
     for (const QString& argument : commandArguments()) provenance.command.push_back(argument.toStdString());
-    job_.start([this, survey = survey_, products = products_, provenance, folder](
-                   Progress& progress, const std::stop_token& stop) {
-        auto saved = saveProducts(*survey, *products, provenance, folder, progress, stop);
+    job_.start([this, run = history_[shown_], provenance, folder, further](Progress& progress,
+                                                                           const std::stop_token& stop) {
+        const bool more = !further.points.empty() || !further.meshes.empty() || !further.grids.empty();
+        PartialProgress saving(progress, 0.0, more ? 0.6 : 1.0), exporting(progress, 0.6, 1.0);
+        auto saved = saveProducts(*run.survey, *run.products, provenance, folder, saving, stop);
+        if (saved && more) {
+            ExportRequest request = further;
+            request.input = folder;
+            const auto outcome = exportResults(request, exporting, stop);
+            if (!outcome) saved = tl::unexpected(outcome.error());
+        }
         return [this, folder, saved = std::move(saved)] {
             if (!saved) return fail(saved.error());
-            Q_EMIT exported(text(folder.string()));
             Q_EMIT told(MessageKind::Done, tr("Exported to %1.").arg(text(folder.string())));
+            Q_EMIT exported(text(folder.string()));
         };
     });
 }
 
 bool SurveySession::changeSetting(const QString& key, const QString& value) {
-    const std::string before = settings_.text(key.toStdString());
-    if (before == value.toStdString()) return true;
-    RunSettings trial = settings_;
-    if (const auto done = trial.set(key.toStdString(), value.toStdString()); !done) {
+    const std::string name = key.toStdString();
+    if (settings_.text(name) == value.toStdString()) return true;
+    RunSettings changed = settings_;
+    if (const auto done = changed.set(name, value.toStdString()); !done) {
         fail(done.error());
         return false;
     }
-    undo_.push(new SettingCommand(*this, key, text(before), value));
+    changeSettings(changed, tr("%1 = %2").arg(settingLabel(key), value));
     return true;
 }
 
-void SurveySession::put(const QString& key, const QString& value) {
-    // Only values that were tried come here.
-    if (settings_.set(key.toStdString(), value.toStdString())) Q_EMIT settingChanged(key);
+void SurveySession::changeEdits(const SurveyEdits& edits, const QString& what) {
+    RunSettings changed = settings_;
+    changed.setEdits(edits);
+    changeSettings(changed, what);
+}
+
+void SurveySession::changeSettings(const RunSettings& settings, const QString& what) {
+    if (settings == settings_) return;
+    undo_.push(new SettingsCommand(*this, what, settings_, settings));
+}
+
+void SurveySession::put(const RunSettings& settings) {
+    const std::vector<std::string> changed = settings_.differences(settings);
+    settings_ = settings;
+    for (const std::string& key : changed) Q_EMIT settingChanged(text(key));
+    Q_EMIT settingsChanged();
+    Q_EMIT savedChanged();
+    autosave_.start();
+}
+
+void SurveySession::loadSettings(const fs::path& file) {
+    PipelineConfig config;
+    if (const auto read = applyConfigFile(config, file); !read) return fail(read.error());
+    changeSettings(RunSettings(config), tr("load settings"));
+    Q_EMIT told(MessageKind::Done, tr("Settings read from %1.").arg(text(file.string())));
+}
+
+fs::path SurveySession::settingsFile() const {
+    if (!survey_) return {};
+    fs::path file = survey_->project_file;
+    return file.replace_extension(".settings.json");
+}
+
+bool SurveySession::save() {
+    if (!survey_) return false;
+    QString problem;
+    if (!writeWhole(settingsFile(), toJson(settings_.config()), problem)) {
+        Q_EMIT told(MessageKind::Error, tr("%1: cannot be written (%2); check that you may write there")
+                                            .arg(text(settingsFile().string()), problem));
+        return false;
+    }
+    saved_ = settings_;
+    autosave_.stop();
+    QFile::remove(text(autosaveFile().string()));
+    Q_EMIT savedChanged();
+    Q_EMIT told(MessageKind::Done, tr("Saved to %1.").arg(text(settingsFile().string())));
+    return true;
+}
+
+void SurveySession::readSaved() {
+    saved_ = RunSettings();
+    std::error_code error;
+    if (!fs::exists(settingsFile(), error)) return;
+    PipelineConfig config;
+    if (const auto read = applyConfigFile(config, settingsFile()); !read) {
+        fail(read.error());
+        Q_EMIT told(MessageKind::Warning,
+                    tr("The saved settings cannot be read: the defaults stand instead."));
+        return;
+    }
+    saved_ = RunSettings(config);
+    settings_ = saved_;
+}
+
+fs::path SurveySession::autosaveFile() const {
+    const QString folder =
+        QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + "/autosave";
+    const QString project = QFileInfo(text(survey_->project_file.string())).canonicalFilePath();
+    const QByteArray name =
+        QCryptographicHash::hash(project.toUtf8(), QCryptographicHash::Sha256).toHex().left(24);
+    return (folder + "/" + QString::fromLatin1(name) + ".json").toStdString();
+}
+
+void SurveySession::autosave() {
+    if (!survey_) return;
+    autosave_.stop();
+    const fs::path file = autosaveFile();
+    if (settings_ == saved_) {
+        QFile::remove(text(file.string()));
+        return;
+    }
+    QDir().mkpath(text(file.parent_path().string()));
+    QString problem;
+    if (!writeWhole(file, toJson(settings_.config()), problem)) {
+        Q_EMIT told(MessageKind::Warning, tr("Changes cannot be kept against a crash: %1").arg(problem));
+    }
+}
+
+void SurveySession::recover() {
+    const fs::path file = autosaveFile();
+    std::error_code error;
+    if (!fs::exists(file, error)) return;
+    PipelineConfig config;
+    if (!applyConfigFile(config, file)) {
+        QFile::remove(text(file.string()));
+        return;
+    }
+    changeSettings(RunSettings(config), tr("unsaved changes"));
+    Q_EMIT told(MessageKind::Warning, tr("Unsaved changes of the last time are back; undo takes them away."));
+}
+
+std::shared_ptr<const Products> SurveySession::products() const {
+    return history_.empty() ? nullptr : history_[shown_].products;
+}
+
+std::shared_ptr<const SurveyMap> SurveySession::map() const {
+    return history_.empty() ? logged_map_ : history_[shown_].map;
+}
+
+bool SurveySession::outdated() const {
+    return !history_.empty() && !(settings_ == history_[shown_].settings);
+}
+
+void SurveySession::goBackTo(std::size_t run) {
+    if (run >= history_.size()) return;
+    shown_ = run;
+    changeSettings(history_[run].settings, tr("go back to an earlier run"));
+    Q_EMIT productsChanged();
 }
 
 const RunSettings& SurveySession::shownSettings() const {
-    return products_ ? processed_with_ : settings_;
+    return history_.empty() ? settings_ : history_[shown_].settings;
 }
 
 QStringList SurveySession::commandArguments() const {
     QStringList arguments{"terrawalk", "process", text(path_.string())};
-    for (const std::string& assignment : shownSettings().assignments()) {
-        arguments << "--set" << text(assignment);
-    }
+    const RunSettings& settings = shownSettings();
+    if (settings.assignments().empty() && !settings.tuned()) return arguments;
+    // A file says it shorter, and alone can say how values were tuned.
+    if (settings == saved_) return arguments << "--config" << text(settingsFile().string());
+    for (const std::string& assignment : settings.assignments()) arguments << "--set" << text(assignment);
     return arguments;
 }
 
 QString SurveySession::commandLine(const QString& output) const {
+    QStringList arguments = commandArguments();
+    arguments << "-o" << output;
     QStringList words;
-    for (const QString& argument : commandArguments() << "-o" << output) words << shellWord(argument);
+    for (const QString& argument : arguments) words << shellWord(argument);
     return words.join(' ');
 }
 

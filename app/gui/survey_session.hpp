@@ -1,15 +1,19 @@
 #pragma once
 
+#include <QDateTime>
 #include <QObject>
 #include <QString>
 #include <QStringList>
+#include <QTimer>
 #include <QUndoStack>
 #include <filesystem>
 #include <memory>
-#include <optional>
+#include <vector>
 
 #include "app/gui/background_job.hpp"
 #include "app/gui/run_settings.hpp"
+#include "app/gui/selection.hpp"
+#include "app/pipeline/export_job.hpp"
 #include "app/pipeline/process.hpp"
 #include "app/pipeline/survey_map.hpp"
 #include "survey/result.hpp"
@@ -19,6 +23,15 @@ namespace terrawalk::gui {
 
 enum class MessageKind { Info, Done, Warning, Error };
 
+/// A finished run of the pipeline, kept so that a person can compare and go back.
+struct FinishedRun {
+    QDateTime when;
+    RunSettings settings;
+    std::shared_ptr<const Survey> survey;  ///< with the edits made
+    std::shared_ptr<const Products> products;
+    std::shared_ptr<const SurveyMap> map;
+};
+
 /// What is open: a survey, its settings, and the last results. Knows no widgets; all work runs in its job.
 /// Values that it hands out are never changed afterwards.
 class SurveySession : public QObject {
@@ -26,27 +39,49 @@ class SurveySession : public QObject {
   public:
     explicit SurveySession(QObject* parent = nullptr);
 
-    /// Reads the survey of a project file, or of the survey.json in a folder; what was open stays open where
-    /// that fails.
+    /// Reads the survey of a project file, or of the survey.json in a folder, with the settings that were
+    /// saved beside it; what was open stays open where that fails. Changes that were not saved when the
+    /// program ended come back, undoably.
     void open(const std::filesystem::path& project_file_or_folder, bool then_process = false);
     void process();
-    /// Writes the last results, just as the command line would.
-    void exportTo(const std::filesystem::path& folder);
+    /// Tunes the method on the survey's marks and takes the values over where they hold out better; undoable.
+    void tune();
+    /// Writes the results that are shown, just as the command line would.
+    /// @param further  formats for a folder beside it, if any
+    void exportTo(const std::filesystem::path& folder, const ExportRequest& further = {});
     void cancel() { job_.cancel(); }
 
     /// Sets one setting, undoably. Refused values become a message, and the setting stays.
     bool changeSetting(const QString& key, const QString& text);
+    /// @param what  for the undo menu, e.g. "exclude a stretch"
+    void changeEdits(const SurveyEdits& edits, const QString& what);
+    void changeSettings(const RunSettings& settings, const QString& what);
+    [[nodiscard]] SurveyEdits edits() const { return settings_.config().edits; }
+    /// Reads a configuration file of `terrawalk`, undoably.
+    void loadSettings(const std::filesystem::path& file);
+    /// Writes the settings beside the survey, for this program and for `terrawalk process --config`.
+    bool save();
+    [[nodiscard]] bool modified() const { return survey_ && !(settings_ == saved_); }
+    [[nodiscard]] std::filesystem::path settingsFile() const;
 
     [[nodiscard]] bool busy() const { return job_.running(); }
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    /// As in its files, without edits.
     [[nodiscard]] std::shared_ptr<const Survey> survey() const { return survey_; }
-    [[nodiscard]] std::shared_ptr<const Products> products() const { return products_; }
-    [[nodiscard]] std::shared_ptr<const SurveyMap> map() const { return map_; }
+    [[nodiscard]] std::shared_ptr<const Products> products() const;
+    [[nodiscard]] std::shared_ptr<const SurveyMap> map() const;
     [[nodiscard]] const RunSettings& settings() const { return settings_; }
     /// Whether the results come from other settings than those that stand now.
-    [[nodiscard]] bool outdated() const { return products_ && !(settings_ == processed_with_); }
+    [[nodiscard]] bool outdated() const;
     [[nodiscard]] BackgroundJob& job() { return job_; }
     [[nodiscard]] QUndoStack& undoStack() { return undo_; }
+    [[nodiscard]] Selection& selection() { return selection_; }
+
+    /// The last runs, the oldest first; the shown one is among them.
+    [[nodiscard]] const std::vector<FinishedRun>& history() const { return history_; }
+    [[nodiscard]] std::size_t shownRun() const { return shown_; }
+    /// Shows the results of an earlier run, and takes its settings over, undoably.
+    void goBackTo(std::size_t run);
 
     /// Arguments of the command that makes the results that are shown, or would be made now.
     [[nodiscard]] QStringList commandArguments() const;
@@ -57,23 +92,38 @@ class SurveySession : public QObject {
     void surveyChanged();
     void productsChanged();
     void settingChanged(const QString& key);
+    /// Once after any number of settings.
+    void settingsChanged();
+    void savedChanged();
     void exported(const QString& folder);
     void told(terrawalk::gui::MessageKind kind, const QString& text);
 
   private:
-    friend class SettingCommand;
-    void put(const QString& key, const QString& text);
+    friend class SettingsCommand;
+    void put(const RunSettings& settings);
     void fail(const Error& error);
+    void finishOpening(const std::filesystem::path& path, Survey survey, SurveyMap map);
+    void finishRun(FinishedRun run);
+    void readSaved();
+    void recover();
+    void autosave();
+    [[nodiscard]] std::filesystem::path autosaveFile() const;
     [[nodiscard]] const RunSettings& shownSettings() const;
 
     BackgroundJob job_;
     QUndoStack undo_;
+    Selection selection_;
+    QTimer autosave_;
     std::filesystem::path path_;
     RunSettings settings_;
-    RunSettings processed_with_;
+    RunSettings saved_;
     std::shared_ptr<const Survey> survey_;
-    std::shared_ptr<const Products> products_;
-    std::shared_ptr<const SurveyMap> map_;
+    std::shared_ptr<const SurveyMap> logged_map_;
+    std::vector<FinishedRun> history_;
+    std::size_t shown_ = 0;
 };
+
+/// A word as a shell takes it, in quotes where it must be.
+[[nodiscard]] QString shellWord(const QString& word);
 
 }  // namespace terrawalk::gui

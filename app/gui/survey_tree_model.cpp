@@ -2,9 +2,10 @@
 
 #include <QBrush>
 #include <QFont>
+#include <algorithm>
 #include <cmath>
 
-#include "app/gui/map_scene.hpp"
+#include "app/gui/accuracy_words.hpp"
 #include "app/gui/theme.hpp"
 
 namespace terrawalk::gui {
@@ -37,10 +38,45 @@ QStandardItem* state(const QString& words) {
     return made;
 }
 
-QStandardItem* checkable(QStandardItem* item) {
-    item->setCheckable(true);
-    item->setCheckState(Qt::Checked);
-    return item;
+void check(QStandardItem& item, bool shown) {
+    item.setCheckable(true);
+    item.setCheckState(shown ? Qt::Checked : Qt::Unchecked);
+}
+
+void leaveOut(QStandardItem& item) {
+    QFont struck = item.font();
+    struck.setStrikeOut(true);
+    item.setFont(struck);
+    item.setForeground(QBrush(quietColour()));
+}
+
+bool isIn(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+const RunReport* reportOf(const Products& products, const std::string& run) {
+    const auto& runs = products.report.runs;
+    const auto found =
+        std::find_if(runs.begin(), runs.end(), [&](const RunReport& r) { return r.id == run; });
+    return found == runs.end() ? nullptr : &*found;
+}
+
+QString sensorWords(EditedSensor sensor) {
+    switch (sensor) {
+        case EditedSensor::All:
+            return SurveyTreeModel::tr("any reading");
+        case EditedSensor::Gnss:
+            return SurveyTreeModel::tr("GNSS");
+        case EditedSensor::Barometer:
+            return SurveyTreeModel::tr("barometer");
+        case EditedSensor::Flow:
+            return SurveyTreeModel::tr("optical flow");
+        case EditedSensor::Attitude:
+            return SurveyTreeModel::tr("attitude");
+        case EditedSensor::Range:
+            return SurveyTreeModel::tr("range");
+    }
+    return {};
 }
 
 }  // namespace
@@ -53,13 +89,15 @@ SurveyTreeModel::SurveyTreeModel(QObject* parent) : QStandardItemModel(parent) {
     });
 }
 
-void SurveyTreeModel::show(const Survey& survey, const SurveyMap& map, const Products* products) {
+void SurveyTreeModel::show(const Survey& survey, const SurveyMap& map, const Products* products,
+                           const SurveyEdits& edits, const MapScene& scene) {
     clear();
     setHorizontalHeaderLabels({tr("Survey"), ""});
     setColumnCount(2);
-    addRuns(survey, products);
-    addMarks(map);
-    if (products != nullptr) addResults(*products);
+    addRuns(survey, products, edits, scene);
+    addMarks(survey, map, edits, scene);
+    addEdits(edits);
+    if (products != nullptr) addResults(*products, scene);
 }
 
 QStandardItem* SurveyTreeModel::addGroup(const QString& name, qsizetype count) {
@@ -71,13 +109,21 @@ QStandardItem* SurveyTreeModel::addGroup(const QString& name, qsizetype count) {
     return group;
 }
 
-void SurveyTreeModel::addRuns(const Survey& survey, const Products* products) {
+void SurveyTreeModel::addRuns(const Survey& survey, const Products* products, const SurveyEdits& edits,
+                              const MapScene& scene) {
     QStandardItem* group = addGroup(tr("Runs"), static_cast<qsizetype>(survey.runs.size()));
     for (std::size_t i = 0; i < survey.runs.size(); ++i) {
         const Run& run = survey.runs[i];
         const bool area = run.kind == RunKind::Area;
-        QStandardItem* row = checkable(entry(text(run.id), RunItem, text(run.id)));
-        row->setIcon(icon(area ? "area_run" : "fixed_point_run", runColour(i)));
+        QStandardItem* made = entry(text(run.id), RunItem, text(run.id));
+        made->setIcon(icon(area ? "area_run" : "fixed_point_run",
+                           currentTheme() == Theme::Dark ? runColour(i).lighter(170) : runColour(i)));
+        if (isIn(edits.runs, run.id)) {
+            leaveOut(*made);
+            group->appendRow({made, state(tr("left out"))});
+            continue;
+        }
+        check(*made, !scene.hidden_runs.contains(text(run.id)));
         QString words =
             run.log.size() > 0 ? duration(run.log.time_s.back() - run.log.time_s.front()) : tr("empty");
         QString help =
@@ -85,53 +131,84 @@ void SurveyTreeModel::addRuns(const Survey& survey, const Products* products) {
         if (run.start) help += tr(", starts on %1").arg(text(*run.start));
         if (run.target) help += tr(", ends on %1").arg(text(*run.target));
         help += tr("; %1 records").arg(run.log.size());
-        if (products != nullptr) {
-            const RunReport& report = products->report.runs[i];
-            words = tr("%1 m, %2").arg(QString::number(report.distance_m, 'f', 0), words);
-            help += tr("; %1 ground points used").arg(report.ground_points_used);
+        if (const RunReport* report = products != nullptr ? reportOf(*products, run.id) : nullptr) {
+            words = tr("%1 m, %2").arg(QString::number(report->distance_m, 'f', 0), words);
+            help += tr("; %1 ground points used").arg(report->ground_points_used);
         }
-        row->setToolTip(help);
-        group->appendRow({row, state(words)});
+        made->setToolTip(help);
+        group->appendRow({made, state(words)});
     }
 }
 
-void SurveyTreeModel::addMarks(const SurveyMap& map) {
-    QStandardItem* group = addGroup(tr("Marks"), static_cast<qsizetype>(map.marks.size()));
-    for (const PlacedMark& placed : map.marks) {
-        const ControlMark& mark = placed.mark;
+void SurveyTreeModel::addMarks(const Survey& survey, const SurveyMap& map, const SurveyEdits& edits,
+                               const MapScene& scene) {
+    QStandardItem* group = addGroup(tr("Marks"), static_cast<qsizetype>(survey.marks.size()));
+    for (const ControlMark& mark : survey.marks) {
         const bool control = mark.role == MarkRole::Control;
-        QStandardItem* row = checkable(entry(text(mark.name), MarkItem, text(mark.name)));
-        row->setIcon(icon(control ? "control_mark" : "check_mark"));
-        row->setToolTip(control ? tr("Control mark: may hold the track")
-                                : tr("Check mark: only ever measures errors"));
-        QString words = control ? tr("control") : tr("check");
-        if (placed.height_error_m) {
-            words = (*placed.height_error_m < 0 ? "−" : "+") +
-                    QString::number(std::abs(*placed.height_error_m), 'f', 2) + " m";
-            row->setToolTip(row->toolTip() + tr("; surface less mark %1").arg(words));
+        QStandardItem* made = entry(text(mark.name), MarkItem, text(mark.name));
+        made->setIcon(icon(control ? "control_mark" : "check_mark"));
+        if (isIn(edits.marks, mark.name)) {
+            leaveOut(*made);
+            group->appendRow({made, state(tr("left out"))});
+            continue;
         }
-        group->appendRow({row, state(words)});
+        check(*made, !scene.hidden_marks.contains(text(mark.name)));
+        made->setToolTip(control ? tr("Control mark: may hold the track")
+                                 : tr("Check mark: only ever measures errors"));
+        QString words = control ? tr("control") : tr("check");
+        const auto placed = std::find_if(map.marks.begin(), map.marks.end(),
+                                         [&](const PlacedMark& m) { return m.mark.name == mark.name; });
+        if (placed != map.marks.end() && placed->height_error_m) {
+            words = signedLength(*placed->height_error_m, 2);
+            made->setToolTip(made->toolTip() + tr("; surface less mark %1").arg(words));
+        }
+        group->appendRow({made, state(words)});
     }
 }
 
-void SurveyTreeModel::addResults(const Products& products) {
+void SurveyTreeModel::addEdits(const SurveyEdits& edits) {
+    if (edits.stretches.empty() && edits.lines.empty()) return;
+    QStandardItem* group =
+        addGroup(tr("Edits"), static_cast<qsizetype>(edits.stretches.size() + edits.lines.size()));
+    for (std::size_t i = 0; i < edits.stretches.size(); ++i) {
+        const ExcludedStretch& out = edits.stretches[i];
+        QStandardItem* made = entry(tr("%1 without %2").arg(text(out.run), sensorWords(out.sensor)),
+                                    StretchItem, QString::number(i));
+        made->setIcon(icon("exclude"));
+        group->appendRow({made, state(QString("%1–%2 s").arg(QString::number(out.from_s, 'f', 0),
+                                                             QString::number(out.to_s, 'f', 0)))});
+    }
+    for (std::size_t i = 0; i < edits.lines.size(); ++i) {
+        const Breakline& line = edits.lines[i];
+        const auto kind = static_cast<std::size_t>(line.kind);
+        const QString names[] = {tr("Breakline"), tr("Soft breakline"), tr("Boundary"), tr("Hole")};
+        const char* icons[] = {"hard_line", "soft_line", "boundary", "hole"};
+        QStandardItem* made = entry(names[kind], LineItem, QString::number(i));
+        made->setIcon(icon(icons[kind]));
+        group->appendRow({made, state(tr("%n point(s)", nullptr, static_cast<int>(line.vertices_m.size())))});
+    }
+}
+
+void SurveyTreeModel::addResults(const Products& products, const MapScene& scene) {
     const SurveyReport& report = products.report;
     QStandardItem* group = addGroup(tr("Results"), -1);
-    const auto add = [&](QStandardItem* row, const QString& words) {
-        row->setIcon(icon("result"));
-        group->appendRow({row, state(words)});
+    const auto add = [&](QStandardItem* made, const QString& words) {
+        made->setIcon(icon("result"));
+        group->appendRow({made, state(words)});
     };
-    add(entry(tr("DEM"), ResultItem, "dem"),
-        tr("%1 × %2, %3 m").arg(report.surface.columns).arg(report.surface.rows).arg(report.surface.cell_m));
+    add(entry(tr("DEM"), ResultItem, "dem"), QString("%1 × %2, %3 m")
+                                                 .arg(report.surface.columns)
+                                                 .arg(report.surface.rows)
+                                                 .arg(report.surface.cell_m));
     if (products.uncertainty && report.surface.uncertainty) {
         add(entry(tr("Uncertainty"), ResultItem, "uncertainty"),
             tr("median %1 m").arg(QString::number(report.surface.uncertainty->median_m, 'f', 2)));
     }
     add(entry(tr("Mesh"), ResultItem, "mesh"), tr("%1 triangles").arg(report.surface.triangles));
-    if (!products.terrace_edges.empty()) {
-        add(checkable(entry(tr("Terrace edges"), EdgesItem, "edges")),
-            QString("%1").arg(products.terrace_edges.size()));
-    }
+    if (products.terrace_edges.empty()) return;
+    QStandardItem* edges = entry(tr("Terrace edges"), EdgesItem, "edges");
+    check(*edges, scene.show_edges);
+    add(edges, QString::number(products.terrace_edges.size()));
 }
 
 }  // namespace terrawalk::gui

@@ -2,6 +2,7 @@
 
 #include <QStandardItemModel>
 
+#include "app/gui/map_scene.hpp"
 #include "app/pipeline/process.hpp"
 #include "app/pipeline/survey_map.hpp"
 #include "survey/survey.hpp"
@@ -14,19 +15,25 @@ class SurveyTreeModel : public QStandardItemModel {
     Q_OBJECT
   public:
     enum Role { KindRole = Qt::UserRole + 1, IdRole };
-    enum Kind { Group, RunItem, MarkItem, EdgesItem, ResultItem };
+    enum Kind { Group, RunItem, MarkItem, EdgesItem, ResultItem, StretchItem, LineItem };
 
     explicit SurveyTreeModel(QObject* parent = nullptr);
+    /// @param survey    as in its files
     /// @param products  null before the survey is processed
-    void show(const Survey& survey, const SurveyMap& map, const Products* products);
+    /// @param scene     tells what is hidden on the map
+    void show(const Survey& survey, const SurveyMap& map, const Products* products, const SurveyEdits& edits,
+              const MapScene& scene);
 
   Q_SIGNALS:
     void visibilityChanged(int kind, const QString& id, bool visible);
 
   private:
-    void addRuns(const Survey& survey, const Products* products);
-    void addMarks(const SurveyMap& map);
-    void addResults(const Products& products);
+    void addRuns(const Survey& survey, const Products* products, const SurveyEdits& edits,
+                 const MapScene& scene);
+    void addMarks(const Survey& survey, const SurveyMap& map, const SurveyEdits& edits,
+                  const MapScene& scene);
+    void addEdits(const SurveyEdits& edits);
+    void addResults(const Products& products, const MapScene& scene);
     QStandardItem* addGroup(const QString& name, qsizetype count);
 };
 

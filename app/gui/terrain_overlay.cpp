@@ -5,7 +5,6 @@
 
 #include "app/gui/round_numbers.hpp"
 #include "app/gui/theme.hpp"
-#include "app/pipeline/relief.hpp"
 
 namespace terrawalk::gui {
 
@@ -20,29 +19,6 @@ constexpr double kFloorBeyond = 0.08;  ///< of the survey's half size
 Eigen::Vector3f inScene(const TerrainScene& scene, const Eigen::Vector3d& map_m) {
     return scene.toScene(map_m, 1.0).cast<float>();
 }
-
-/// Colour of a track at one of its places.
-class TrackInk {
-  public:
-    TrackInk(const MapScene& map, std::size_t run)
-        : run_(runColour(run).rgb()), ramp_(sequentialRamp()), greatest_m_(greatestSigma(map)) {
-        const MapTrack& track = map.survey->tracks[run];
-        const auto& own =
-            map.colouring == TrackColouring::SigmaPlan ? track.sigma_plan_m : track.sigma_height_m;
-        if (greatest_m_ > 0.0 && own.size() == track.map_m.size()) sigmas_m_ = &own;
-    }
-    [[nodiscard]] QRgb at(std::size_t i) const {
-        if (sigmas_m_ == nullptr) return run_;
-        const Colour c = rampColour(ramp_, (*sigmas_m_)[i] / greatest_m_);
-        return qRgb(c[0], c[1], c[2]);
-    }
-
-  private:
-    QRgb run_;
-    std::vector<Colour> ramp_;
-    double greatest_m_;
-    const std::vector<double>* sigmas_m_ = nullptr;
-};
 
 /// The part of a track between two times, laid on the surface; where there is none the line breaks.
 template <class Ink>
@@ -74,17 +50,20 @@ void layTrack(const TerrainScene& scene, const MapTrack& track, double from_s, d
 
 void addTracks(const TerrainScene& scene, const MapScene& map, const OverlayChoice& choice,
                std::vector<SceneLine>& lines) {
+    const auto range = trackRange(map);
     for (std::size_t i = 0; i < map.survey->tracks.size(); ++i) {
         const MapTrack& track = map.survey->tracks[i];
         const QString id = QString::fromStdString(track.run_id);
         if (map.hidden_runs.contains(id)) continue;
-        const TrackInk ink(map, i);
+        const std::vector<QRgb> inks = trackColours(track, map.colouring, range);
+        const QRgb run = runColour(i).rgb();
         SceneLine style;
         style.width_px = map.highlighted == id ? 3.5F : 1.8F;
         style.edge = qRgba(255, 255, 255, 255);
         if (choice.tracks) {
             layTrack(
-                scene, track, -HUGE_VAL, HUGE_VAL, [&](std::size_t k) { return ink.at(k); }, style, lines);
+                scene, track, -HUGE_VAL, HUGE_VAL,
+                [&](std::size_t k) { return inks.empty() ? run : inks[k]; }, style, lines);
         }
         if (choice.stretch && choice.stretch->run == id) {
             const QRgb bright = selectedColour().rgb();

@@ -8,6 +8,13 @@
 #include <QStyleFactory>
 #include <QSvgRenderer>
 
+/// Resources of a static library are found only once somebody asked for them; outside any namespace, as Qt
+/// wants.
+static void initResources() {
+    Q_INIT_RESOURCE(gui);
+    Q_INIT_RESOURCE(translations);
+}
+
 namespace terrawalk::gui {
 
 namespace {
@@ -63,8 +70,9 @@ QPalette paletteOf(const Colours& c) {
 constexpr const char* kStyle = R"(
 QMainWindow::separator { background: %line; width: 1px; height: 1px; }
 QToolBar { border: 0; border-bottom: 1px solid %line; padding: 4px 8px; spacing: 4px; background: %window; }
-QToolBar QToolButton { padding: 4px 8px; border-radius: 4px; border: 0; }
+QToolBar QToolButton { padding: 5px; border-radius: 4px; border: 0; }
 QToolBar QToolButton:hover { background: %line; }
+QToolBar QToolButton:checked { background: %accent; }
 QStatusBar { border-top: 1px solid %line; }
 QStatusBar::item { border: 0; }
 QDockWidget { font-weight: 600; }
@@ -80,7 +88,7 @@ QLineEdit, QComboBox { padding: 3px 8px; border: 1px solid %line; border-radius:
 QLineEdit:focus, QComboBox:focus { border-color: %accent; }
 QLineEdit[refused="true"] { border-color: %error; }
 QComboBox::drop-down { border: 0; width: 20px; }
-QComboBox::down-arrow { image: none; border-left: 4px solid transparent; border-right: 4px solid transparent; border-top: 5px solid %quiet; }
+QComboBox::down-arrow { image: url(:/icons/chevron.svg); width: 12px; height: 12px; }
 QComboBox QAbstractItemView { background: %base; border: 1px solid %line; selection-background-color: %accent; selection-color: %onaccent; }
 QPushButton { padding: 6px 16px; border: 1px solid %line; border-radius: 4px; background: %raised; }
 QPushButton:hover, QPushButton:focus { border-color: %accent; }
@@ -96,6 +104,20 @@ QLabel#figure { font-size: 19px; font-weight: 600; }
 QLabel#cardTitle { font-weight: 600; }
 QToolButton#fold { border: 0; color: %quiet; padding: 4px 0; }
 QToolButton#fold:hover, QToolButton#fold:focus { color: %accent; }
+QCheckBox { spacing: 8px; }
+QCheckBox::indicator, QTreeView::indicator { width: 14px; height: 14px; border: 1px solid %quiet; border-radius: 3px; background: %base; }
+QCheckBox::indicator:checked, QTreeView::indicator:checked { background: %accent; border-color: %accent; image: url(:/icons/%tick.svg); }
+QCheckBox::indicator:focus { border: 2px solid %accent; }
+QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
+QLabel#key { border: 1px solid %line; border-radius: 4px; padding: 1px 6px; background: %raised; }
+QLabel#command { background: %base; border: 1px solid %line; border-radius: 4px; padding: 8px; font-family: monospace; }
+QWidget#footer { border-top: 1px solid %line; }
+QMenu { background: %base; border: 1px solid %line; padding: 4px; }
+QMenu::item { padding: 5px 24px 5px 8px; border-radius: 4px; }
+QMenu::item:selected { background: %accent; color: %onaccent; }
+QMenu::item:disabled { color: %quiet; }
+QMenu::separator { height: 1px; background: %line; margin: 4px 8px; }
+QMenu::icon { padding-left: 8px; }
 QProgressBar { border: 0; border-radius: 3px; background: %line; max-height: 6px; min-height: 6px; }
 QProgressBar::chunk { border-radius: 3px; background: %accent; }
 QToolTip { background: %raised; color: %text; border: 1px solid %line; padding: 4px; }
@@ -114,13 +136,42 @@ QString styleSheet(const Colours& c) {
         {"%text", c.text},          {"%quiet", c.quiet},   {"%line", c.line},
         {"%onaccent", c.on_accent}, {"%accent", c.accent}, {"%error", c.error},
     };
+    style.replace("%tick", current == Theme::Light ? "tick_light" : "tick_dark");
     for (const auto& [name, colour] : names) style.replace(name, colour.name());
     return style;
 }
 
 }  // namespace
 
+namespace {
+
+QByteArray svgOf(const QString& name) {
+    initResources();
+    QFile file(":/icons/" + name + ".svg");
+    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+void addPixmaps(QIcon& icon, QByteArray svg, const QColor& ink, QIcon::Mode mode, QIcon::State state) {
+    svg.replace("currentColor", ink.name().toUtf8());
+    QSvgRenderer renderer(svg);
+    for (const int size_px : {16, 24, 32, 48, 64, 128}) {
+        QPixmap pixmap(size_px, size_px);
+        pixmap.fill(Qt::transparent);
+        QPainter painter(&pixmap);
+        renderer.render(&painter);
+        painter.end();
+        icon.addPixmap(pixmap, mode, state);
+    }
+}
+
+}  // namespace
+
+void registerResources() {
+    initResources();
+}
+
 void applyTheme(Theme theme) {
+    initResources();
     current = theme;
     QApplication::setStyle(QStyleFactory::create("Fusion"));
     QApplication::setPalette(paletteOf(colours()));
@@ -155,26 +206,18 @@ QColor errorColour() {
 }
 
 QIcon icon(const QString& name, const QColor& colour) {
-    QFile file(":/icons/" + name + ".svg");
-    if (!file.open(QIODevice::ReadOnly)) return {};
-    QByteArray svg = file.readAll();
+    const QByteArray svg = svgOf(name);
     QIcon made;
-    const QColor own = colour.isValid() ? colour : colours().text;
-    for (const auto& [mode, ink] :
-         {std::pair{QIcon::Normal, own},
-          std::pair{QIcon::Disabled, colours().line.darker(current == Theme::Light ? 120 : 80)}}) {
-        QByteArray coloured = svg;
-        coloured.replace("currentColor", ink.name().toUtf8());
-        QSvgRenderer renderer(coloured);
-        for (const int size_px : {16, 24, 32, 48, 64, 128}) {
-            QPixmap pixmap(size_px, size_px);
-            pixmap.fill(Qt::transparent);
-            QPainter painter(&pixmap);
-            renderer.render(&painter);
-            painter.end();
-            made.addPixmap(pixmap, mode);
-        }
-    }
+    if (svg.isEmpty()) return made;
+    addPixmaps(made, svg, colour.isValid() ? colour : colours().text, QIcon::Normal, QIcon::Off);
+    addPixmaps(made, svg, colours().line.darker(current == Theme::Light ? 120 : 80), QIcon::Disabled,
+               QIcon::Off);
+    return made;
+}
+
+QIcon toolIcon(const QString& name) {
+    QIcon made = icon(name);
+    addPixmaps(made, svgOf(name), colours().on_accent, QIcon::Normal, QIcon::On);
     return made;
 }
 

@@ -19,8 +19,13 @@ void applyTheme(Theme theme);
 [[nodiscard]] QColor warningColour();
 [[nodiscard]] QColor errorColour();
 
+/// Makes icons and translations found; the functions here do so themselves.
+void registerResources();
+
 /// One of the program's own icons, in the colour of text unless another is given.
 [[nodiscard]] QIcon icon(const QString& name, const QColor& colour = {});
+/// The same for a button that stands on the accent colour while it is checked.
+[[nodiscard]] QIcon toolIcon(const QString& name);
 
 inline constexpr int kGrid_px = 8;
 

@@ -872,6 +872,11 @@ Result<void> applySetting(PipelineConfig& config, std::string_view assignment) {
     return (*parameter)->set(config, value);
 }
 
+std::string settingText(const PipelineConfig& config, std::string_view key) {
+    const auto parameter = findParameter(key);
+    return parameter ? shortText((*parameter)->get(config)) : std::string();
+}
+
 Result<void> applyConfigFile(PipelineConfig& config, const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     std::error_code error;

@@ -64,6 +64,9 @@ struct ParameterInfo {
 /// a value of another type or out of range.
 [[nodiscard]] Result<void> applySetting(PipelineConfig& config, std::string_view assignment);
 
+/// The value of one parameter as text that `applySetting` takes; empty for an unknown key.
+[[nodiscard]] std::string settingText(const PipelineConfig& config, std::string_view key);
+
 /// Overlays a JSON file on the configuration; keys that it lacks keep their value. Errors: BadData with file
 /// and, for broken JSON, line; unknown keys are refused. The section "tuning" is carried into
 /// `PipelineConfig::tuning`.

@@ -44,9 +44,9 @@ struct Provenance {
     std::vector<std::string> command;  ///< arguments that decide the result, program name first
 };
 
-/// Writes dem.tif with its styles for QGIS, dem_uncertainty.tif, dem_density.tif, dem_source.tif, surface.ply,
-/// surface.obj, terrace_edges.gpkg where any were found, trajectory/*.csv, ground_points.csv, residuals.csv,
-/// report.json, report.html, figures.txt and manifest.json. The caller commits the folder.
+/// Writes dem.tif with its styles for QGIS, dem_uncertainty.tif, dem_density.tif, dem_source.tif,
+/// surface.ply, surface.obj, terrace_edges.gpkg where any were found, trajectory/*.csv, ground_points.csv,
+/// residuals.csv, report.json, report.html, figures.txt and manifest.json. The caller commits the folder.
 [[nodiscard]] Result<void> writeProducts(const Survey& survey, const Products& products,
                                          const Provenance& provenance, OutputFolder& folder,
                                          Progress& progress, std::stop_token stop);

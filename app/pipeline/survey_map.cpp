@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/map_projection.hpp"
+#include "mapping/contours.hpp"
 
 namespace terrawalk {
 
@@ -24,7 +25,7 @@ Result<std::vector<PlacedMark>> placedMarks(const Survey& survey, const MapProje
 Result<SurveyMap> mapWithMarks(const Survey& survey, const MapProjection& projection) {
     auto marks = placedMarks(survey, projection);
     if (!marks) return tl::unexpected(marks.error());
-    return SurveyMap{projection.name(), {}, std::move(*marks)};
+    return SurveyMap{projection.name(), {}, std::move(*marks), {}};
 }
 
 Result<MapProjection> projectionOf(const Survey& survey) {
@@ -54,6 +55,27 @@ Result<void> addErrors(const std::vector<Residual>& residuals, const MapProjecti
     return {};
 }
 
+Result<std::vector<Eigen::Vector3d>> groundPointsOnMap(const std::vector<GroundPoint>& points,
+                                                       const MapProjection& projection) {
+    std::vector<Eigen::Vector3d> known_enu_m;
+    for (const GroundPoint& point : points) {
+        if (point.enu_m.allFinite()) known_enu_m.push_back(point.enu_m);
+    }
+    auto known = projection.toMap(known_enu_m);
+    if (!known) return known;
+    std::vector<Eigen::Vector3d> all(points.size(), Eigen::Vector3d::Constant(kMissing));
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (points[i].enu_m.allFinite()) all[i] = (*known)[next++];
+    }
+    return all;
+}
+
+int fixOf(const ArrayLog& log, std::size_t epoch) {
+    const double code = log.value(Channel::Fix, epoch);
+    return present(code) ? static_cast<int>(code) : -1;
+}
+
 }  // namespace
 
 Result<SurveyMap> loggedMap(const Survey& survey, const std::stop_token& stop) {
@@ -66,6 +88,7 @@ Result<SurveyMap> loggedMap(const Survey& survey, const std::stop_token& stop) {
         if (stop.stop_requested()) return cancelled();
         std::vector<Eigen::Vector3d> enu_m;
         std::vector<double> time_s;
+        std::vector<int> fix;
         for (std::size_t i = 0; i < run.log.size(); ++i) {
             GeodeticPosition position{run.log.value(Channel::Latitude, i),
                                       run.log.value(Channel::Longitude, i),
@@ -74,10 +97,12 @@ Result<SurveyMap> loggedMap(const Survey& survey, const std::stop_token& stop) {
             if (!present(position.h_ell_m)) position.h_ell_m = survey.zero_point.h_ell_m;
             enu_m.push_back(frame.toEnu(position));
             time_s.push_back(run.log.time_s[i]);
+            fix.push_back(fixOf(run.log, i));
         }
         auto places = projection->toMap(enu_m);
         if (!places) return tl::unexpected(places.error());
-        map->tracks.push_back({run.id, run.kind, std::move(*places), std::move(time_s), {}, {}});
+        map->tracks.push_back(
+            {run.id, run.kind, std::move(*places), std::move(time_s), std::move(fix), {}, {}, {}});
     }
     return map;
 }
@@ -89,11 +114,13 @@ Result<SurveyMap> fusedMap(const Survey& survey, const Products& products, const
     if (!map) return map;
     for (std::size_t i = 0; i < products.trajectories.size(); ++i) {
         if (stop.stop_requested()) return cancelled();
-        MapTrack track{products.trajectories[i].run_id, survey.runs[i].kind, {}, {}, {}, {}};
+        MapTrack track{products.trajectories[i].run_id, survey.runs[i].kind, {}, {}, {}, {}, {}, {}};
         std::vector<Eigen::Vector3d> enu_m;
         for (const TrajectoryEpoch& epoch : products.trajectories[i].epochs) {
             enu_m.push_back(epoch.position_enu_m);
+            track.fix.push_back(fixOf(survey.runs[i].log, track.time_s.size()));
             track.time_s.push_back(epoch.time_s);
+            track.speed_mps.push_back(epoch.velocity_enu_mps.head<2>().norm());
             track.sigma_plan_m.push_back(std::sqrt(std::max(epoch.covariance(0, 0), epoch.covariance(1, 1))));
             track.sigma_height_m.push_back(std::sqrt(epoch.covariance(2, 2)));
         }
@@ -102,12 +129,22 @@ Result<SurveyMap> fusedMap(const Survey& survey, const Products& products, const
         track.map_m = std::move(*places);
         map->tracks.push_back(std::move(track));
     }
+    auto points = groundPointsOnMap(products.ground_points, *projection);
+    if (!points) return tl::unexpected(points.error());
+    map->ground_points_m = std::move(*points);
     for (PlacedMark& placed : map->marks) {
         if (auto done = addErrors(products.report.residuals, *projection, placed); !done) {
             return tl::unexpected(done.error());
         }
     }
     return map;
+}
+
+Result<std::vector<Contour>> surfaceContours(const Products& products, double interval_m, Progress& progress,
+                                             const std::stop_token& stop) {
+    auto lines = contourLines(products.dem, {.interval = interval_m}, progress, stop);
+    if (!lines) return tl::unexpected(lines.error());
+    return std::move(lines->contours);
 }
 
 }  // namespace terrawalk

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/pipeline/process.hpp"
+#include "survey/contour.hpp"
 #include "survey/result.hpp"
 #include "survey/survey.hpp"
 
@@ -18,6 +19,8 @@ struct MapTrack {
     RunKind kind = RunKind::Area;
     std::vector<Eigen::Vector3d> map_m;
     std::vector<double> time_s;        ///< of the log
+    std::vector<int> fix;              ///< of the receiver, as fix_code; -1 where the log does not tell
+    std::vector<double> speed_mps;     ///< over ground; empty where nobody tells
     std::vector<double> sigma_plan_m;  ///< larger of the two axes, 1 sigma; empty where nobody tells
     std::vector<double> sigma_height_m;
 };
@@ -35,11 +38,18 @@ struct PlacedMark {
 struct SurveyMap {
     std::string crs;  ///< human-readable name of the map frame
     std::vector<MapTrack> tracks;
-    std::vector<PlacedMark> marks;  ///< the zero point first
+    std::vector<PlacedMark> marks;                 ///< the zero point first
+    std::vector<Eigen::Vector3d> ground_points_m;  ///< one for each ground point of the products; not finite
+                                                   ///< where it has no place
 };
 
 /// The GNSS positions as they were logged. Errors: as MapProjection; Cancelled.
 [[nodiscard]] Result<SurveyMap> loggedMap(const Survey& survey, const std::stop_token& stop);
+/// Contours of the products' surface, for drawing: in the map frame, `interval_m` apart. Errors: as
+/// contourLines().
+[[nodiscard]] Result<std::vector<Contour>> surfaceContours(const Products& products, double interval_m,
+                                                           Progress& progress, const std::stop_token& stop);
+
 /// The fused tracks, and the marks with their errors. Errors: as above.
 /// @param products  of this survey
 [[nodiscard]] Result<SurveyMap> fusedMap(const Survey& survey, const Products& products,

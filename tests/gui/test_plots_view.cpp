@@ -449,7 +449,6 @@ void TestPlotsView::pictures() {
 }
 
 int main(int argc, char** argv) {
-    Q_INIT_RESOURCE(gui);
     QApplication app(argc, argv);
     TestPlotsView test;
     return QTest::qExec(&test, argc, argv);

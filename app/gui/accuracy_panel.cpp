@@ -1,0 +1,199 @@
+#include "app/gui/accuracy_panel.hpp"
+
+#include <QFrame>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QScrollArea>
+#include <QTableView>
+#include <QTableWidget>
+#include <QVBoxLayout>
+#include <cmath>
+
+#include "app/gui/accuracy_words.hpp"
+#include "app/gui/theme.hpp"
+
+namespace terrawalk::gui {
+
+namespace {
+
+QString text(const std::string& utf8) {
+    return QString::fromStdString(utf8);
+}
+
+QLabel* heading(const QString& words) {
+    auto* label = new QLabel(words);
+    label->setObjectName("heading");
+    return label;
+}
+
+QWidget* figureCard(const KeyFigure& figure) {
+    auto* card = new QFrame;
+    card->setObjectName("card");
+    auto* column = new QVBoxLayout(card);
+    column->setContentsMargins(12, 12, 12, 12);
+    column->setSpacing(4);
+    auto* value = new QLabel(text(figure.value));
+    value->setObjectName("figure");
+    auto* name = new QLabel(text(figure.label));
+    name->setWordWrap(true);
+    auto* detail = new QLabel(text(figure.detail));
+    detail->setObjectName("quiet");
+    detail->setWordWrap(true);
+    column->addWidget(value);
+    column->addWidget(name);
+    column->addWidget(detail);
+    column->addStretch();
+    return card;
+}
+
+/// A table that is as high as its rows: the page scrolls, not the table.
+void fitHeight(QTableView& table) {
+    int height = table.horizontalHeader()->sizeHint().height() + 2 * table.frameWidth() + 2;
+    for (int row = 0; row < table.model()->rowCount(); ++row) height += table.rowHeight(row);
+    table.setFixedHeight(height);
+}
+
+void dress(QTableView& table) {
+    table.verticalHeader()->hide();
+    table.verticalHeader()->setDefaultSectionSize(26);
+    table.setShowGrid(false);
+    table.setAlternatingRowColors(true);
+    table.setSelectionBehavior(QAbstractItemView::SelectRows);
+    table.setSelectionMode(QAbstractItemView::SingleSelection);
+    table.setEditTriggers(QAbstractItemView::NoEditTriggers);
+    table.setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    table.setWordWrap(false);
+    table.horizontalHeader()->setHighlightSections(false);
+}
+
+QTableWidgetItem* cell(const QString& words, bool number) {
+    auto* item = new QTableWidgetItem(words);
+    item->setTextAlignment((number ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+    return item;
+}
+
+QString bullets(const std::vector<std::string>& lines) {
+    QString html;
+    for (const std::string& line : lines) html += "<li>" + text(line).toHtmlEscaped() + "</li>";
+    return html.isEmpty() ? html : "<ul style='margin-left: -24px'>" + html + "</ul>";
+}
+
+}  // namespace
+
+AccuracyPanel::AccuracyPanel(Selection& selection, QWidget* parent) : QWidget(parent), selection_(selection) {
+    auto* outer = new QVBoxLayout(this);
+    outer->setContentsMargins(0, 0, 0, 0);
+    auto* hint =
+        new QLabel(tr("Nothing to judge yet. Process the survey: its errors at the marks will stand here."));
+    hint->setObjectName("quiet");
+    hint->setAlignment(Qt::AlignCenter);
+    empty_ = hint;
+    outer->addWidget(empty_, 1);
+
+    content_ = new QScrollArea;
+    auto* page = new QWidget;
+    auto* column = new QVBoxLayout(page);
+    column->setContentsMargins(3 * kGrid_px, 3 * kGrid_px, 3 * kGrid_px, 3 * kGrid_px);
+    column->setSpacing(2 * kGrid_px);
+    figures_ = new QHBoxLayout;
+    figures_->setSpacing(kGrid_px);
+    column->addLayout(figures_);
+    column->addWidget(heading(tr("Errors by group, in metres")));
+    groups_ = new QTableView;
+    groups_->setObjectName("groups");
+    groups_->setModel(&model_);
+    dress(*groups_);
+    column->addWidget(groups_);
+    words_ = new QLabel;
+    words_->setWordWrap(true);
+    words_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    column->addWidget(words_);
+    column->addWidget(heading(tr("Surface less mark, the largest first")));
+    marks_ = new QTableWidget;
+    marks_->setObjectName("marks");
+    dress(*marks_);
+    column->addWidget(marks_);
+    column->addStretch();
+    auto* scroll = static_cast<QScrollArea*>(content_);
+    scroll->setWidget(page);
+    scroll->setWidgetResizable(true);
+    outer->addWidget(content_, 1);
+    connect(marks_, &QTableWidget::itemSelectionChanged, this, [this] {
+        const auto rows = marks_->selectionModel()->selectedRows();
+        if (!rows.isEmpty()) selection_.selectItem(marks_->item(rows.front().row(), 0)->text());
+    });
+    show(nullptr);
+}
+
+void AccuracyPanel::show(std::shared_ptr<const Products> products) {
+    empty_->setVisible(!products);
+    content_->setVisible(products != nullptr);
+    if (!products) return;
+    const SurveyReport& report = products->report;
+    fillFigures(report);
+    model_.show(report.accuracy, report.headline);
+    groups_->resizeColumnsToContents();
+    groups_->setHorizontalScrollBarPolicy(Qt::ScrollBarAsNeeded);
+    groups_->horizontalHeader()->setSectionResizeMode(AccuracyModel::QuantityColumn, QHeaderView::Stretch);
+    fitHeight(*groups_);
+    fillWords(report);
+    fillMarks(report);
+}
+
+void AccuracyPanel::fillFigures(const SurveyReport& report) {
+    while (QLayoutItem* item = figures_->takeAt(0)) {
+        delete item->widget();
+        delete item;
+    }
+    for (const KeyFigure& figure : report.figures) figures_->addWidget(figureCard(figure), 1);
+}
+
+void AccuracyPanel::fillWords(const SurveyReport& report) {
+    QString html;
+    const auto add = [&](const QString& title, const std::vector<std::string>& lines) {
+        if (!lines.empty()) html += "<p><b>" + title + "</b></p>" + bullets(lines);
+    };
+    add(tr("What the marks say"), report.statements);
+    add(tr("What could not be checked"), report.limitations);
+    add(tr("Warnings"), report.warnings);
+    words_->setText(html);
+}
+
+void AccuracyPanel::fillMarks(const SurveyReport& report) {
+    std::vector<const Residual*> rows;
+    for (const Residual& r : report.residuals) {
+        if (r.stage == Stage::Surface && r.quantity == Quantity::SurfaceHeight) rows.push_back(&r);
+    }
+    std::sort(rows.begin(), rows.end(), [](const Residual* a, const Residual* b) {
+        return std::abs(a->difference_enu_m.z()) > std::abs(b->difference_enu_m.z());
+    });
+    marks_->clear();
+    marks_->setColumnCount(5);
+    marks_->setRowCount(static_cast<int>(rows.size()));
+    marks_->setHorizontalHeaderLabels(
+        {tr("Mark"), tr("Role"), tr("Height error (m)"), tr("Predicted σ (m)"), tr("Error / σ")});
+    for (int column = 2; column < 5; ++column) {
+        marks_->horizontalHeaderItem(column)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    }
+    marks_->horizontalHeaderItem(0)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+    marks_->horizontalHeaderItem(1)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Residual& r = *rows[i];
+        const int row = static_cast<int>(i);
+        const double d = r.difference_enu_m.z(), sigma = r.sigma_enu_m.z();
+        marks_->setItem(row, 0, cell(text(r.mark), false));
+        marks_->setItem(row, 1, cell(r.role == MarkRole::Control ? tr("control") : tr("check"), false));
+        QString words = signedLength(d);
+        marks_->setItem(row, 2, cell(words.chopped(2), true));
+        marks_->setItem(row, 3, cell(present(sigma) ? QString::number(sigma, 'f', 3) : "–", true));
+        auto* ratio = cell(present(sigma) ? QString::number(std::abs(d) / sigma, 'f', 1) : "–", true);
+        if (present(sigma) && std::abs(d) > 1.96 * sigma) ratio->setForeground(warningColour());
+        marks_->setItem(row, 4, ratio);
+    }
+    marks_->resizeColumnsToContents();
+    marks_->horizontalHeader()->setSectionResizeMode(1, QHeaderView::Stretch);
+    fitHeight(*marks_);
+}
+
+}  // namespace terrawalk::gui

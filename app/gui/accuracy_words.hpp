@@ -1,0 +1,15 @@
+#pragma once
+
+#include <QString>
+
+#include "survey/survey_report.hpp"
+
+namespace terrawalk::gui {
+
+/// What became of the headline accuracy between two runs, in a sentence; empty where they cannot be compared.
+[[nodiscard]] QString changeOfFigures(const SurveyReport& before, const SurveyReport& after);
+
+/// A signed length with a true minus, e.g. "−0.12 m".
+[[nodiscard]] QString signedLength(double metres, int decimals = 3);
+
+}  // namespace terrawalk::gui

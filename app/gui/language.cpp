@@ -1,0 +1,45 @@
+#include "app/gui/language.hpp"
+
+#include <QCoreApplication>
+#include <QLibraryInfo>
+#include <QLocale>
+#include <QSettings>
+#include <QTranslator>
+
+#include "app/gui/theme.hpp"
+
+namespace terrawalk::gui {
+
+namespace {
+
+QTranslator& ownTexts() {
+    static QTranslator translator;
+    return translator;
+}
+
+QTranslator& qtTexts() {
+    static QTranslator translator;
+    return translator;
+}
+
+}  // namespace
+
+void applyLanguage(const QString& language) {
+    registerResources();
+    const QString name = language.startsWith("zh") ? "zh_CN" : "en";
+    QCoreApplication::removeTranslator(&ownTexts());
+    QCoreApplication::removeTranslator(&qtTexts());
+    // English has a file too: of plurals.
+    if (ownTexts().load(":/i18n/terrawalk_" + name + ".qm")) QCoreApplication::installTranslator(&ownTexts());
+    if (name != "en" &&
+        qtTexts().load("qtbase_" + name, QLibraryInfo::path(QLibraryInfo::TranslationsPath))) {
+        QCoreApplication::installTranslator(&qtTexts());
+    }
+}
+
+QString preferredLanguage() {
+    const QString chosen = QSettings().value("language").toString();
+    return chosen.isEmpty() ? QLocale::system().name() : chosen;
+}
+
+}  // namespace terrawalk::gui

@@ -1,0 +1,598 @@
+#include "app/gui/main_window.hpp"
+
+#include <QAction>
+#include <QApplication>
+#include <QClipboard>
+#include <QCloseEvent>
+#include <QDesktopServices>
+#include <QDockWidget>
+#include <QDragEnterEvent>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QHeaderView>
+#include <QLabel>
+#include <QListView>
+#include <QMenu>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QSettings>
+#include <QStackedWidget>
+#include <QStatusBar>
+#include <QTabWidget>
+#include <QTreeView>
+#include <QUrl>
+#include <QWhatsThis>
+#include <algorithm>
+#include <utility>
+
+#include "app/gui/accuracy_panel.hpp"
+#include "app/gui/export_dialog.hpp"
+#include "app/gui/language.hpp"
+#include "app/gui/map_panel.hpp"
+#include "app/gui/place_panel.hpp"
+#include "app/gui/recent_surveys.hpp"
+#include "app/gui/shortcuts_dialog.hpp"
+#include "app/gui/start_page.hpp"
+#include "app/gui/steps_panel.hpp"
+#include "app/pipeline/version.hpp"
+
+namespace terrawalk::gui {
+
+namespace {
+
+constexpr int kLayoutVersion = 1;
+constexpr const char* kIconName = "icon_name";
+
+QString text(const std::string& utf8) {
+    return QString::fromStdString(utf8);
+}
+
+std::string nameOf(const QString& utf16) {
+    return utf16.toStdString();
+}
+
+BreaklineKind kindOf(MapTool tool) {
+    switch (tool) {
+        case MapTool::SoftLine:
+            return BreaklineKind::Soft;
+        case MapTool::Boundary:
+            return BreaklineKind::Boundary;
+        case MapTool::Hole:
+            return BreaklineKind::Hole;
+        default:
+            return BreaklineKind::Hard;
+    }
+}
+
+/// The folder of the last file dialog.
+QString lastFolder() {
+    return QSettings().value("last_folder").toString();
+}
+
+void rememberFolder(const QString& path) {
+    QSettings().setValue("last_folder", QFileInfo(path).absolutePath());
+}
+
+}  // namespace
+
+MainWindow::MainWindow(SurveySession& session, MessageModel& messages, QWidget* parent)
+    : QMainWindow(parent), session_(session), message_model_(messages) {
+    setObjectName("main_window");
+    setWindowIcon(icon("terrawalk"));
+    setAcceptDrops(true);
+    setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks);
+    setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
+    setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+    questions.survey = [this](const QString& title, const QString& folder) {
+        return QFileDialog::getOpenFileName(this, title, folder, tr("Surveys (*.json);;All files (*)"));
+    };
+    questions.settings_file = [this](const QString& title, const QString& folder) {
+        return QFileDialog::getOpenFileName(this, title, folder, tr("Settings (*.json);;All files (*)"));
+    };
+    buildViews();
+    buildDocks();
+    buildActions();
+    connectSession();
+    resize(1280, 800);
+    const QSettings settings;
+    restoreGeometry(settings.value("window/geometry").toByteArray());
+    restoreState(settings.value("window/layout").toByteArray(), kLayoutVersion);
+    showSurvey();
+    showProducts();
+}
+
+MainWindow::~MainWindow() = default;
+
+MapView& MainWindow::map() {
+    return map_->view();
+}
+
+void MainWindow::buildViews() {
+    map_ = new MapPanel(session_.selection());
+    accuracy_ = new AccuracyPanel(session_.selection());
+    views_ = new QTabWidget;
+    views_->setObjectName("views");
+    views_->setDocumentMode(true);
+    views_->addTab(map_, tr("Map"));
+    views_->addTab(accuracy_, tr("Accuracy"));
+    start_ = new StartPage;
+    pages_ = new QStackedWidget;
+    pages_->addWidget(start_);
+    pages_->addWidget(views_);
+    setCentralWidget(pages_);
+    connect(start_, &StartPage::openAsked, this, &MainWindow::askForSurvey);
+    connect(start_, &StartPage::surveyAsked, this, [this](const QString& path) { open(path); });
+    connect(start_, &StartPage::sampleAsked, this, [this](const QString& path) { open(path, true); });
+    MapView& view = map_->view();
+    connect(&view, &MapView::hovered, this, [this](const QString& words) { readout_->setText(words); });
+    connect(&view, &MapView::placeAsked, this, &MainWindow::askPlace);
+    connect(&view, &MapView::lineDrawn, this, &MainWindow::takeLine);
+}
+
+QDockWidget* MainWindow::addDock(Qt::DockWidgetArea area, const QString& name, const QString& title,
+                                 QWidget* widget) {
+    auto* dock = new QDockWidget(title, this);
+    dock->setObjectName(name);
+    dock->setWidget(widget);
+    addDockWidget(area, dock);
+    docks_ << dock;
+    return dock;
+}
+
+void MainWindow::buildDocks() {
+    tree_ = new QTreeView;
+    tree_->setObjectName("survey_tree");
+    tree_->setModel(&tree_model_);
+    tree_->setHeaderHidden(true);
+    tree_->setContextMenuPolicy(Qt::CustomContextMenu);
+    tree_->setIndentation(16);
+    tree_->setMinimumWidth(200);
+    tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    tree_->setFrameShape(QFrame::NoFrame);
+    tree_->setAccessibleName(tr("Survey"));
+    connect(tree_, &QTreeView::customContextMenuRequested, this, &MainWindow::treeMenu);
+    connect(tree_, &QTreeView::clicked, this, [this](const QModelIndex& index) {
+        const QModelIndex first = index.siblingAtColumn(0);
+        const int kind = first.data(SurveyTreeModel::KindRole).toInt();
+        if (kind != SurveyTreeModel::RunItem && kind != SurveyTreeModel::MarkItem) return;
+        session_.selection().selectItem(first.data(SurveyTreeModel::IdRole).toString());
+    });
+    connect(&tree_model_, &SurveyTreeModel::visibilityChanged, this,
+            [this](int kind, const QString& id, bool visible) {
+                if (kind == SurveyTreeModel::RunItem) map().setRunVisible(id, visible);
+                if (kind == SurveyTreeModel::MarkItem) map().setMarkVisible(id, visible);
+                if (kind == SurveyTreeModel::EdgesItem) map().setEdgesVisible(visible);
+            });
+    steps_ = new StepsPanel(session_);
+    steps_->setMinimumWidth(296);
+    connect(steps_, &StepsPanel::openAsked, this, &MainWindow::askForSurvey);
+    connect(steps_, &StepsPanel::exportAsked, this, &MainWindow::askForExport);
+    connect(steps_, &StepsPanel::commandAsked, this, &MainWindow::copyCommand);
+    connect(steps_, &StepsPanel::accuracyAsked, this, [this] { views_->setCurrentWidget(accuracy_); });
+    place_ = new PlacePanel;
+    messages_ = new QListView;
+    messages_->setObjectName("messages");
+    messages_->setModel(&message_model_);
+    messages_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+    messages_->setIconSize({16, 16});
+    messages_->setUniformItemSizes(true);
+    messages_->setTextElideMode(Qt::ElideRight);
+    messages_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    messages_->setFrameShape(QFrame::NoFrame);
+    messages_->setAccessibleName(tr("Messages"));
+    auto* tree_dock = addDock(Qt::LeftDockWidgetArea, "dock_survey", tr("Survey"), tree_);
+    auto* place_dock = addDock(Qt::LeftDockWidgetArea, "dock_place", tr("Place"), place_);
+    auto* steps_dock = addDock(Qt::RightDockWidgetArea, "dock_steps", tr("Steps"), steps_);
+    auto* message_dock = addDock(Qt::BottomDockWidgetArea, "dock_messages", tr("Messages"), messages_);
+    resizeDocks({tree_dock, steps_dock}, {288, 328}, Qt::Horizontal);
+    resizeDocks({tree_dock, place_dock}, {340, 340}, Qt::Vertical);
+    resizeDocks({message_dock}, {120}, Qt::Vertical);
+    readout_ = new QLabel;
+    readout_->setObjectName("readout");
+    state_ = new QLabel;
+    state_->setObjectName("quiet");
+    statusBar()->addPermanentWidget(readout_);
+    statusBar()->addPermanentWidget(state_);
+    statusBar()->setSizeGripEnabled(false);
+}
+
+QAction* MainWindow::addAction(QMenu& menu, const QString& name, const QString& icon_name,
+                               const QString& words, const QKeySequence& key,
+                               const std::function<void()>& run) {
+    QAction* action = menu.addAction(words);
+    action->setObjectName(name);
+    action->setProperty(kIconName, icon_name);
+    action->setShortcut(key);
+    QString plain = words;
+    action->setStatusTip(plain.remove('&').remove("…"));
+    connect(action, &QAction::triggered, this, run);
+    actions_[name] = action;
+    return action;
+}
+
+void MainWindow::buildActions() {
+    buildFileMenu();
+    buildEditMenu();
+    buildViewMenu();
+    buildHelpMenu();
+    themeIcons();
+}
+
+void MainWindow::buildFileMenu() {
+    QMenu& menu = *menuBar()->addMenu(tr("&Survey"));
+    addAction(menu, "open", "open", tr("&Open…"), QKeySequence::Open, [this] { askForSurvey(); });
+    QMenu* recent = menu.addMenu(tr("Open &recent"));
+    connect(recent, &QMenu::aboutToShow, this, [this, recent] {
+        recent->clear();
+        for (const QString& path : recentSurveys()) {
+            connect(recent->addAction(path), &QAction::triggered, this, [this, path] { open(path); });
+        }
+        if (recent->isEmpty()) recent->addAction(tr("None yet"))->setEnabled(false);
+    });
+    addAction(menu, "start_page", "map", tr("&Start page"), {}, [this] {
+        start_->refresh();
+        showPage(start_);
+    });
+    menu.addSeparator();
+    addAction(menu, "save", "save", tr("&Save settings"), QKeySequence::Save, [this] { session_.save(); });
+    addAction(menu, "load_settings", "settings", tr("&Load settings…"), {}, [this] {
+        const QString file = questions.settings_file(tr("Load settings"), lastFolder());
+        if (!file.isEmpty()) session_.loadSettings(file.toStdString());
+    });
+    menu.addSeparator();
+    addAction(menu, "process", "process", tr("&Process"), QKeySequence(Qt::Key_F5),
+              [this] { session_.process(); });
+    addAction(menu, "cancel", "stop", tr("&Cancel"), QKeySequence(Qt::CTRL | Qt::Key_Period),
+              [this] { session_.cancel(); });
+    addAction(menu, "tune", "tune", tr("&Tune on the marks"), {}, [this] { session_.tune(); });
+    menu.addSeparator();
+    addAction(menu, "export", "export", tr("&Export…"), QKeySequence("Ctrl+E"), [this] { askForExport(); });
+    addAction(menu, "command", "copy", tr("Copy as co&mmand"), QKeySequence("Ctrl+Shift+C"),
+              [this] { copyCommand(); });
+    menu.addSeparator();
+    addAction(menu, "quit", "", tr("&Quit"), QKeySequence::Quit, [this] { close(); });
+}
+
+void MainWindow::buildEditMenu() {
+    QMenu& menu = *menuBar()->addMenu(tr("&Edit"));
+    QUndoStack& stack = session_.undoStack();
+    for (const bool undo : {true, false}) {
+        QAction* action =
+            undo ? stack.createUndoAction(this, tr("&Undo")) : stack.createRedoAction(this, tr("&Redo"));
+        action->setObjectName(undo ? "undo" : "redo");
+        action->setProperty(kIconName, undo ? "undo" : "redo");
+        action->setShortcut(undo ? QKeySequence::Undo : QKeySequence::Redo);
+        menu.addAction(action);
+        actions_[action->objectName()] = action;
+    }
+    menu.addSeparator();
+    addAction(menu, "exclude", "exclude", tr("E&xclude what is selected"), QKeySequence(Qt::Key_Delete),
+              [this] { excludeSelected(); });
+    QMenu* only = menu.addMenu(tr("Exclude &only"));
+    const std::pair<EditedSensor, QString> sensors[] = {{EditedSensor::Range, tr("range (no ground points)")},
+                                                        {EditedSensor::Gnss, tr("GNSS")},
+                                                        {EditedSensor::Barometer, tr("barometer")},
+                                                        {EditedSensor::Flow, tr("optical flow")},
+                                                        {EditedSensor::Attitude, tr("attitude")}};
+    for (const auto& [sensor, words] : sensors) {
+        connect(only->addAction(words), &QAction::triggered, this, [this, one = sensor] {
+            if (session_.selection().stretch()) excludeStretch(*session_.selection().stretch(), one);
+        });
+    }
+    connect(only, &QMenu::aboutToShow, this, [this, only] {
+        for (QAction* action : only->actions())
+            action->setEnabled(session_.selection().stretch().has_value());
+    });
+    menu.addSeparator();
+    menu.addActions(map_->toolActions());
+}
+
+void MainWindow::buildViewMenu() {
+    QMenu& menu = *menuBar()->addMenu(tr("&View"));
+    for (int tab = 0; tab < views_->count(); ++tab) {
+        addAction(menu, QString("view_%1").arg(tab), "", views_->tabText(tab),
+                  QKeySequence(QString("Ctrl+%1").arg(tab + 1)),
+                  [this, tab] { views_->setCurrentIndex(tab); });
+    }
+    menu.addSeparator();
+    for (QDockWidget* dock : docks_) menu.addAction(dock->toggleViewAction());
+    menu.addSeparator();
+    addAction(menu, "theme", "theme", tr("&Dark or light"), QKeySequence("Ctrl+Shift+D"),
+              [this] { setTheme(currentTheme() == Theme::Light ? Theme::Dark : Theme::Light); });
+    addAction(menu, "language", "language", tr("中文 / English"), {}, [this] {
+        const bool chinese = preferredLanguage().startsWith("zh");
+        Q_EMIT languageAsked(chinese ? "en" : "zh_CN");
+    });
+}
+
+void MainWindow::buildHelpMenu() {
+    QMenu& menu = *menuBar()->addMenu(tr("&Help"));
+    addAction(menu, "shortcuts", "help", tr("&Keys"), QKeySequence("F1"), [this] { showShortcuts(); });
+    addAction(menu, "whats_this", "help", tr("&What is this?"), QKeySequence::WhatsThis,
+              [] { QWhatsThis::enterWhatsThisMode(); });
+    addAction(menu, "about", "info", tr("&About Terrawalk"), {}, [this] { showAbout(); });
+}
+
+void MainWindow::connectSession() {
+    connect(&session_, &SurveySession::surveyChanged, this, &MainWindow::showSurvey);
+    connect(&session_, &SurveySession::productsChanged, this, &MainWindow::showProducts);
+    connect(&session_, &SurveySession::told, this, &MainWindow::say);
+    connect(&session_, &SurveySession::savedChanged, this, &MainWindow::showTitle);
+    connect(&session_, &SurveySession::settingsChanged, this, [this] {
+        map().setEdits(session_.edits());
+        showTree();
+        enableActions();
+    });
+    connect(&session_.job(), &BackgroundJob::runningChanged, this, &MainWindow::enableActions);
+    connect(&session_.selection(), &Selection::changed, this, [this] {
+        followSelection();
+        enableActions();
+    });
+    connect(&session_.undoStack(), &QUndoStack::cleanChanged, this, &MainWindow::enableActions);
+    connect(&session_, &SurveySession::exported, this, [this](const QString&) { enableActions(); });
+    enableActions();
+    showTitle();
+}
+
+void MainWindow::enableActions() {
+    const bool busy = session_.busy(), open = session_.survey() != nullptr,
+               made = session_.products() != nullptr;
+    const std::pair<const char*, bool> states[] = {{"open", !busy},
+                                                   {"save", open},
+                                                   {"load_settings", open && !busy},
+                                                   {"process", open && !busy},
+                                                   {"tune", open && !busy},
+                                                   {"cancel", busy},
+                                                   {"export", made && !busy},
+                                                   {"command", open},
+                                                   {"exclude", !session_.selection().item().isEmpty()}};
+    for (const auto& [name, enabled] : states) actions_.at(name)->setEnabled(enabled);
+    state_->setText(!open                 ? QString()
+                    : busy                ? tr("working")
+                    : !made               ? tr("not processed")
+                    : session_.outdated() ? tr("settings changed: process again")
+                                          : tr("up to date"));
+}
+
+void MainWindow::open(const QString& path, bool then_process) {
+    if (session_.busy()) {
+        say(MessageKind::Warning, tr("Cancel what is running first."));
+        return;
+    }
+    session_.open(path.toStdString(), then_process);
+}
+
+void MainWindow::askForSurvey() {
+    const QString file = questions.survey(tr("Open a survey"), lastFolder());
+    if (file.isEmpty()) return;
+    rememberFolder(file);
+    open(file);
+}
+
+void MainWindow::askForExport() {
+    if (!session_.products()) return;
+    auto* dialog = new ExportDialog(session_, this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->open();
+}
+
+void MainWindow::copyCommand() {
+    QGuiApplication::clipboard()->setText(session_.commandLine("out"));
+    say(MessageKind::Info, tr("Copied: %1").arg(session_.commandLine("out")));
+    if (session_.settings().tuned() && session_.modified()) {
+        say(MessageKind::Warning, tr("Tuned values travel in a file: save the settings, then copy again."));
+    }
+}
+
+void MainWindow::showPage(QWidget* page) {
+    pages_->setCurrentWidget(page);
+    if (page == start_ && layout_.isEmpty()) {
+        layout_ = saveState(kLayoutVersion);
+        for (QDockWidget* dock : docks_) dock->hide();
+    } else if (page != start_ && !layout_.isEmpty()) {
+        restoreState(std::exchange(layout_, {}), kLayoutVersion);
+    }
+}
+
+void MainWindow::showSurvey() {
+    const auto survey = session_.survey();
+    showPage(survey ? static_cast<QWidget*>(views_) : start_);
+    if (survey) {
+        rememberSurvey(text(session_.path().string()));
+        views_->setCurrentWidget(map_);
+        map().setEdits(session_.edits());
+    }
+    place_->clear();
+    showTitle();
+}
+
+void MainWindow::showProducts() {
+    map_->show(session_.map(), session_.products());
+    accuracy_->show(session_.products());
+    place_->clear();
+    showTree();
+    enableActions();
+}
+
+void MainWindow::showTree() {
+    const auto survey = session_.survey();
+    if (!survey) return;
+    tree_model_.show(*survey, *session_.map(), session_.products().get(), session_.edits(), map().scene());
+    tree_->expandAll();
+    tree_->header()->setStretchLastSection(false);
+    tree_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+    tree_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
+}
+
+void MainWindow::followSelection() {
+    const QString item = session_.selection().item();
+    if (item.isEmpty()) return tree_->clearSelection();
+    const auto found = tree_model_.match(tree_model_.index(0, 0), SurveyTreeModel::IdRole, item, 1,
+                                         Qt::MatchExactly | Qt::MatchRecursive);
+    if (found.isEmpty()) return;
+    tree_->setCurrentIndex(found.front());
+    tree_->scrollTo(found.front());
+}
+
+void MainWindow::showTitle() {
+    const auto survey = session_.survey();
+    setWindowTitle(survey ? tr("%1[*] – Terrawalk").arg(text(survey->name)) : tr("Terrawalk"));
+    setWindowModified(session_.modified());
+    enableActions();
+}
+
+void MainWindow::askPlace(QPointF map_m) {
+    const auto products = session_.products();
+    if (!products) return;
+    const auto& run = session_.history()[session_.shownRun()];
+    place_->show(placeReport(*run.survey, *products, *run.map, {map_m.x(), map_m.y()}));
+}
+
+void MainWindow::takeLine(MapTool tool, const QPolygonF& vertices_m) {
+    if (tool == MapTool::Measure) {
+        say(MessageKind::Info, measureText(vertices_m, true));
+        return;
+    }
+    if (tool == MapTool::Profile) {
+        showProfile(vertices_m);
+        return;
+    }
+    Breakline line{{}, kindOf(tool), {}};
+    for (const QPointF& v : vertices_m) line.vertices_m.emplace_back(v.x(), v.y(), kMissing);
+    SurveyEdits edits = session_.edits();
+    edits.lines.push_back(std::move(line));
+    session_.changeEdits(edits, tr("draw a line"));
+    say(MessageKind::Info, tr("Line drawn: process again, and the surface keeps to it."));
+}
+
+void MainWindow::excludeStretch(const TrackStretch& stretch, EditedSensor sensor) {
+    SurveyEdits edits = session_.edits();
+    edits.stretches.push_back({nameOf(stretch.run), stretch.from_s, stretch.to_s, sensor});
+    session_.changeEdits(edits, tr("exclude a stretch"));
+    session_.selection().clear();
+    say(MessageKind::Info, tr("%1 is left out from %2 to %3 s: process again to see what it changes.")
+                               .arg(stretch.run, QString::number(stretch.from_s, 'f', 1),
+                                    QString::number(stretch.to_s, 'f', 1)));
+}
+
+void MainWindow::leaveOut(int kind, const QString& id, bool out) {
+    SurveyEdits edits = session_.edits();
+    auto& names = kind == SurveyTreeModel::RunItem ? edits.runs : edits.marks;
+    std::erase(names, nameOf(id));
+    if (out) names.push_back(nameOf(id));
+    session_.changeEdits(edits, out ? tr("leave out %1").arg(id) : tr("take %1 back in").arg(id));
+}
+
+void MainWindow::excludeSelected() {
+    const Selection& selection = session_.selection();
+    if (selection.stretch()) return excludeStretch(*selection.stretch(), EditedSensor::All);
+    const auto survey = session_.survey();
+    if (!survey || selection.item().isEmpty()) return;
+    const bool run = std::any_of(survey->runs.begin(), survey->runs.end(),
+                                 [&](const Run& r) { return text(r.id) == selection.item(); });
+    leaveOut(run ? SurveyTreeModel::RunItem : SurveyTreeModel::MarkItem, selection.item(), true);
+}
+
+void MainWindow::treeMenu(const QPoint& at) {
+    const QModelIndex index = tree_->indexAt(at).siblingAtColumn(0);
+    if (!index.isValid()) return;
+    const int kind = index.data(SurveyTreeModel::KindRole).toInt();
+    const QString id = index.data(SurveyTreeModel::IdRole).toString();
+    QMenu menu;
+    const SurveyEdits edits = session_.edits();
+    if (kind == SurveyTreeModel::RunItem || kind == SurveyTreeModel::MarkItem) {
+        const auto& names = kind == SurveyTreeModel::RunItem ? edits.runs : edits.marks;
+        const bool out = std::find(names.begin(), names.end(), nameOf(id)) != names.end();
+        connect(menu.addAction(out ? tr("Take back in") : tr("Leave out")), &QAction::triggered, this,
+                [this, kind, id, out] { leaveOut(kind, id, !out); });
+    } else if (kind == SurveyTreeModel::StretchItem || kind == SurveyTreeModel::LineItem) {
+        connect(menu.addAction(tr("Take back")), &QAction::triggered, this, [this, kind, row = id.toUInt()] {
+            SurveyEdits changed = session_.edits();
+            if (kind == SurveyTreeModel::StretchItem && row < changed.stretches.size()) {
+                changed.stretches.erase(changed.stretches.begin() + static_cast<std::ptrdiff_t>(row));
+            } else if (kind == SurveyTreeModel::LineItem && row < changed.lines.size()) {
+                changed.lines.erase(changed.lines.begin() + static_cast<std::ptrdiff_t>(row));
+            }
+            session_.changeEdits(changed, tr("take back an edit"));
+        });
+    }
+    if (!menu.isEmpty()) menu.exec(tree_->viewport()->mapToGlobal(at));
+}
+
+void MainWindow::showProfile(const QPolygonF&) {}
+
+void MainWindow::showShortcuts() {
+    auto* dialog = new ShortcutsDialog(actions_, map_->toolActions(), this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->open();
+}
+
+void MainWindow::showAbout() {
+    auto* box = new QMessageBox(this);
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->setObjectName("about_box");
+    box->setWindowTitle(tr("About Terrawalk"));
+    box->setIconPixmap(icon("terrawalk").pixmap(64, 64));
+    box->setText(
+        tr("<h3>Terrawalk %1</h3><p>From a walk with the sensor array to a terrain model that you can sign "
+           "for."
+           "</p><p>Free software, see LICENSE. Built with Eigen, CGAL, PCL, GDAL, PROJ, OctoMap and Qt.</p>")
+            .arg(text(versionNumber())));
+    box->open();
+}
+
+void MainWindow::say(MessageKind kind, const QString& words) {
+    message_model_.add(kind, words);
+    messages_->scrollToBottom();
+    if (kind == MessageKind::Error) {
+        for (QDockWidget* dock : docks_) {
+            if (dock->objectName() == "dock_messages") dock->show();
+        }
+    }
+    statusBar()->showMessage(words, 8000);
+}
+
+void MainWindow::setTheme(Theme theme) {
+    applyTheme(theme);
+    QSettings().setValue("theme", theme == Theme::Dark ? "dark" : "light");
+    themeIcons();
+    map_->themeChanged();
+    message_model_.themeChanged();
+    steps_->themeChanged();
+    accuracy_->show(session_.products());
+    showTree();
+}
+
+void MainWindow::themeIcons() {
+    for (const auto& [name, action] : actions_) {
+        const QString icon_name = action->property(kIconName).toString();
+        if (!icon_name.isEmpty()) action->setIcon(icon(icon_name));
+    }
+    const std::pair<int, const char*> tabs[] = {{views_->indexOf(map_), "map"},
+                                                {views_->indexOf(accuracy_), "accuracy"}};
+    for (const auto& [tab, name] : tabs) views_->setTabIcon(tab, icon(name));
+}
+
+void MainWindow::keepLayout() {
+    QSettings settings;
+    settings.setValue("window/geometry", saveGeometry());
+    settings.setValue("window/layout", layout_.isEmpty() ? saveState(kLayoutVersion) : layout_);
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+    keepLayout();
+    session_.cancel();
+    event->accept();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+    if (event->mimeData()->hasUrls()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+    const auto urls = event->mimeData()->urls();
+    if (!urls.isEmpty() && urls.front().isLocalFile()) open(urls.front().toLocalFile());
+}
+
+}  // namespace terrawalk::gui

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <QMainWindow>
+#include <functional>
+
+#include "app/gui/map_view.hpp"
+#include "app/gui/message_model.hpp"
+#include "app/gui/survey_session.hpp"
+#include "app/gui/survey_tree_model.hpp"
+#include "app/gui/theme.hpp"
+
+class QDockWidget;
+class QLabel;
+class QListView;
+class QMenu;
+class QStackedWidget;
+class QTabWidget;
+class QTreeView;
+
+namespace terrawalk::gui {
+
+class AccuracyPanel;
+class MapPanel;
+class PlacePanel;
+class StartPage;
+class StepsPanel;
+
+/// The window: survey tree at the left, views in the middle, steps at the right, messages below.
+class MainWindow : public QMainWindow {
+    Q_OBJECT
+  public:
+    /// Both must outlive the window.
+    MainWindow(SurveySession& session, MessageModel& messages, QWidget* parent = nullptr);
+    ~MainWindow() override;
+
+    [[nodiscard]] SurveySession& session() { return session_; }
+    [[nodiscard]] MapView& map();
+    void open(const QString& path, bool then_process = false);
+    void setTheme(Theme theme);
+    /// Remembers where the window and its docks stand.
+    void keepLayout();
+
+    /// How a person is asked for a file or folder; a test answers in its place. Empty: cancelled.
+    struct Questions {
+        std::function<QString(const QString& title, const QString& folder)> survey;
+        std::function<QString(const QString& title, const QString& folder)> settings_file;
+    };
+    Questions questions;
+
+  Q_SIGNALS:
+    void languageAsked(const QString& language);
+
+  protected:
+    void closeEvent(QCloseEvent* event) override;
+    void dragEnterEvent(QDragEnterEvent* event) override;
+    void dropEvent(QDropEvent* event) override;
+
+  private:
+    void buildDocks();
+    void buildViews();
+    void buildActions();
+    void buildFileMenu();
+    void buildEditMenu();
+    void buildViewMenu();
+    void buildHelpMenu();
+    QAction* addAction(QMenu& menu, const QString& name, const QString& icon_name, const QString& text,
+                       const QKeySequence& key, const std::function<void()>& run);
+    QDockWidget* addDock(Qt::DockWidgetArea area, const QString& name, const QString& title, QWidget* widget);
+    void connectSession();
+    void askForSurvey();
+    void askForExport();
+    void copyCommand();
+    void showPage(QWidget* page);
+    void showSurvey();
+    void showProducts();
+    void followSelection();
+    void showTitle();
+    void showTree();
+    void enableActions();
+    void askPlace(QPointF map_m);
+    void takeLine(MapTool tool, const QPolygonF& vertices_m);
+    void excludeStretch(const TrackStretch& stretch, EditedSensor sensor);
+    void excludeSelected();
+    void leaveOut(int kind, const QString& id, bool out);
+    void treeMenu(const QPoint& at);
+    void showProfile(const QPolygonF& line_m);
+    void showShortcuts();
+    void showAbout();
+    void themeIcons();
+    void say(MessageKind kind, const QString& text);
+
+    SurveySession& session_;
+    MessageModel& message_model_;
+    SurveyTreeModel tree_model_;
+    QStackedWidget* pages_ = nullptr;
+    StartPage* start_ = nullptr;
+    QTabWidget* views_ = nullptr;
+    MapPanel* map_ = nullptr;
+    AccuracyPanel* accuracy_ = nullptr;
+    PlacePanel* place_ = nullptr;
+    StepsPanel* steps_ = nullptr;
+    QTreeView* tree_ = nullptr;
+    QListView* messages_ = nullptr;
+    QLabel* readout_ = nullptr;
+    QLabel* state_ = nullptr;
+    QList<QDockWidget*> docks_;
+    QByteArray layout_;  ///< of the docks, while the start page hides them
+    std::map<QString, QAction*> actions_;
+};
+
+}  // namespace terrawalk::gui

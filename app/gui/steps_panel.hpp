@@ -1,0 +1,58 @@
+#pragma once
+
+#include <QWidget>
+#include <map>
+
+#include "app/gui/steps.hpp"
+
+class QComboBox;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+
+namespace terrawalk::gui {
+
+class StepCard;
+class SurveySession;
+
+/// The way from logs to a DEM, from above to below, and the button that goes it.
+class StepsPanel : public QWidget {
+    Q_OBJECT
+  public:
+    explicit StepsPanel(SurveySession& session, QWidget* parent = nullptr);
+
+    void themeChanged();
+
+  Q_SIGNALS:
+    void openAsked();
+    void exportAsked();
+    void commandAsked();
+    void accuracyAsked();
+
+  private:
+    void fillCards();
+    void buildCheck(StepCard& card);
+    QPushButton* addButton(StepCard& card, const QString& name, const QString& text, const QString& tip);
+    QWidget* buildFooter();
+    void showState();
+    void showProgress(double fraction, const QString& step, double seconds_left);
+    void showHistory();
+    SurveySession& session_;
+    std::map<StepKind, StepCard*> cards_;
+    QPushButton* tune_ = nullptr;
+    QPushButton* export_ = nullptr;
+    QPushButton* command_ = nullptr;
+    QPushButton* accuracy_ = nullptr;
+    QPushButton* process_ = nullptr;
+    QPushButton* cancel_ = nullptr;
+    QComboBox* history_ = nullptr;
+    QLabel* figure_ = nullptr;
+    QLabel* figure_detail_ = nullptr;
+    QLabel* doing_ = nullptr;
+    QProgressBar* bar_ = nullptr;
+};
+
+/// Seconds as a person says them, e.g. "about 2 min"; empty below zero.
+[[nodiscard]] QString timeLeft(double seconds);
+
+}  // namespace terrawalk::gui

@@ -1,0 +1,141 @@
+// Pictures of the window's views for people to look at: screenshots FOLDER [SURVEY]. Needs a display, such as
+// Xvfb's.
+#include <QApplication>
+#include <QComboBox>
+#include <QDir>
+#include <QElapsedTimer>
+#include <QSettings>
+#include <QStandardPaths>
+#include <QTabWidget>
+#include <QTest>
+#include <cstdio>
+
+#include "app/gui/desktop.hpp"
+#include "app/gui/language.hpp"
+#include "app/gui/theme.hpp"
+
+namespace {
+
+using namespace terrawalk;
+using namespace terrawalk::gui;
+
+bool waitFor(const std::function<bool()>& done, int limit_ms) {
+    QElapsedTimer timer;
+    timer.start();
+    while (!done() && timer.elapsed() < limit_ms) QTest::qWait(20);
+    return done();
+}
+
+class Camera {
+  public:
+    Camera(MainWindow& window, QDir folder, QString suffix)
+        : window_(window), folder_(std::move(folder)), suffix_(std::move(suffix)) {}
+    void shoot(const QString& name, QWidget* what = nullptr) {
+        waitFor([this] { return !window_.map().preparing(); }, 20000);
+        QTest::qWait(150);
+        const QString file = folder_.filePath(name + suffix_ + ".png");
+        (what != nullptr ? what : &window_)->grab().save(file);
+        std::printf("%s\n", qPrintable(file));
+    }
+
+  private:
+    MainWindow& window_;
+    QDir folder_;
+    QString suffix_;
+};
+
+void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size, const QString& language) {
+    QSettings().clear();
+    QSettings().setValue("theme", theme == Theme::Dark ? "dark" : "light");
+    applyTheme(theme);
+    Desktop desktop;
+    MainWindow& window = desktop.window();
+    window.resize(size);
+    window.show();
+    QTest::qWait(100);
+    Camera camera(window, folder,
+                  QString("_%1_%2x%3_%4")
+                      .arg(theme == Theme::Dark ? "dark" : "light")
+                      .arg(size.width())
+                      .arg(size.height())
+                      .arg(language));
+    camera.shoot("start");
+    SurveySession& session = window.session();
+    window.open(survey);
+    waitFor([&] { return session.survey() && !session.busy(); }, 60000);
+    camera.shoot("opened");
+    session.process();
+    waitFor([&] { return session.products() && !session.busy(); }, 300000);
+    auto* views = window.findChild<QTabWidget*>("views");
+    const QRectF extent = window.map().scene().extent_m();
+    QTest::mouseClick(&window.map(), Qt::LeftButton, {},
+                      window.map().transform().toScreen(extent.center() + QPointF(7.3, 5.1)).toPoint());
+    camera.shoot("map");
+    const auto choose = [&](const char* combo, int row) {
+        window.findChild<QComboBox*>(combo)->setCurrentIndex(row);
+    };
+    choose("layers", 1);
+    choose("colourings", 5);
+    window.findChild<QAction*>("contours")->setChecked(true);
+    camera.shoot("uncertainty");
+    choose("layers", 0);
+    choose("colourings", 1);
+    const MapTrack& track = session.map()->tracks.back();
+    const std::size_t n = track.time_s.size();
+    session.selection().select(
+        {QString::fromStdString(track.run_id), track.time_s[n / 3], track.time_s[n / 2]});
+    SurveyEdits edits = session.edits();
+    const QPointF c = extent.center();
+    edits.lines.push_back(
+        {{{c.x() - 20, c.y() - 8, kMissing}, {c.x(), c.y() + 2, kMissing}, {c.x() + 15, c.y(), kMissing}},
+         BreaklineKind::Hard,
+         {}});
+    edits.stretches.push_back({track.run_id, track.time_s[n / 8], track.time_s[n / 6], EditedSensor::All});
+    session.changeEdits(edits, "draw");
+    camera.shoot("edits");
+    for (int tab = 1; tab < views->count(); ++tab) {
+        views->setCurrentIndex(tab);
+        QTest::qWait(300);
+        camera.shoot(QString("view%1").arg(tab));
+    }
+    views->setCurrentIndex(0);
+    for (const char* name : {"export", "shortcuts", "about"}) {
+        window.findChild<QAction*>(name)->trigger();
+        QTest::qWait(150);
+        if (QWidget* dialog = QApplication::activeModalWidget()) {
+            camera.shoot(QString("dialog_%1").arg(name), dialog);
+            dialog->close();
+            QTest::qWait(50);
+        }
+    }
+    // What a person did not save must not come back in the next picture.
+    session.undoStack().setIndex(0);
+    QTest::qWait(1000);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    QStandardPaths::setTestModeEnabled(true);
+    QApplication app(argc, argv);
+    QApplication::setOrganizationName("Terrawalk");
+    QApplication::setApplicationName("terrawalk-screenshots");
+    if (argc < 2) {
+        std::fprintf(stderr, "usage: screenshots FOLDER [SURVEY [quick]]\n");
+        return 2;
+    }
+    const QDir folder(argv[1]);
+    folder.mkpath(".");
+    const QString survey = argc > 2 ? argv[2] : TERRAWALK_SOURCE_DIR "/sample_surveys/mango_orchard";
+    const bool quick = argc > 3;
+    for (const QString& language : quick ? QStringList{"en"} : QStringList{"en", "zh"}) {
+        applyLanguage(language);
+        for (const Theme theme : {Theme::Light, Theme::Dark}) {
+            for (const QSize& size :
+                 quick ? QList<QSize>{{1280, 800}} : QList<QSize>{{1280, 800}, {1920, 1080}}) {
+                shootAll(folder, survey, theme, size, language);
+            }
+        }
+    }
+    return 0;
+}

@@ -1,0 +1,469 @@
+#include <QAction>
+#include <QApplication>
+#include <QClipboard>
+#include <QComboBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListView>
+#include <QMimeData>
+#include <QProcess>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSettings>
+#include <QSignalSpy>
+#include <QStandardPaths>
+#include <QTabWidget>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QToolButton>
+#include <QTreeView>
+#include <filesystem>
+
+#include "app/gui/desktop.hpp"
+#include "app/gui/export_dialog.hpp"
+#include "app/gui/language.hpp"
+#include "app/gui/start_page.hpp"
+#include "app/gui/theme.hpp"
+
+namespace terrawalk::gui {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kLong_ms = 120000;
+
+QString text(const fs::path& path) {
+    return QString::fromStdString(path.string());
+}
+
+QByteArray bytesOf(const QString& path) {
+    QFile file(path);
+    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+}  // namespace
+
+/// The whole story on the real window, with the small sample.
+class WindowTest : public QObject {
+    Q_OBJECT
+  private Q_SLOTS:
+    void initTestCase();
+    void init();
+    void cleanup();
+    void startPageOffersTheSampleAndOneClickMakesItsDem();
+    void clickTellsTheHeightThere();
+    void stretchIsExcludedByDraggingAlongATrackAndUndoBringsItBack();
+    void breaklineIsDrawnByClicksAndHoldsTheSurface();
+    void settingsAreCheckedAndUndone();
+    void cancelStopsSoonAndKeepsWhatWasThere();
+    void windowAnswersWhileItWorks();
+    void unsavedChangesComeBackAfterTheProcessWasKilled();
+    void savedSettingsReplayedByTheCommandLineGiveTheSameBytes();
+    void exportDialogRefusesWhatCannotBe();
+    void themeAndLanguageSwitch();
+    void badFilesAreErrorsInTheMessagesAndLoseNothing();
+    void droppedFolderIsOpened();
+    void earlierRunsCanBeGoneBackTo();
+    void keysAloneSuffice();
+
+  private:
+    void openSample();
+    void processed();
+    [[nodiscard]] QPoint onScreen(const Eigen::Vector3d& map_m) const {
+        return window_->map().transform().toScreen({map_m.x(), map_m.y()}).toPoint();
+    }
+    [[nodiscard]] SurveySession& session() const { return desktop_->session(); }
+    [[nodiscard]] QAction& action(const char* name) const { return *window_->findChild<QAction*>(name); }
+    [[nodiscard]] QString messages() const;
+    [[nodiscard]] bool idle() const { return !session().busy(); }
+
+    std::unique_ptr<QTemporaryDir> scratch_;
+    QString sample_;  ///< a copy that may be written beside
+    std::unique_ptr<Desktop> desktop_;
+    MainWindow* window_ = nullptr;  ///< the desktop's
+};
+
+void WindowTest::initTestCase() {
+    QStandardPaths::setTestModeEnabled(true);
+    QApplication::setOrganizationName("Terrawalk");
+    QApplication::setApplicationName("terrawalk-test");
+    QVERIFY(!sampleSurveys().empty());
+}
+
+void WindowTest::init() {
+    QSettings().clear();
+    QDir(QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation)).removeRecursively();
+    applyTheme(Theme::Light);
+    scratch_ = std::make_unique<QTemporaryDir>();
+    sample_ = scratch_->filePath("plot");
+    fs::copy(TERRAWALK_SOURCE_DIR "/sample_surveys/quick_plot", sample_.toStdString(),
+             fs::copy_options::recursive);
+    applyLanguage("en");
+    desktop_ = std::make_unique<Desktop>();
+    window_ = &desktop_->window();
+    window_->resize(1280, 800);
+    window_->show();
+    QVERIFY(QTest::qWaitForWindowExposed(window_));
+    // Nobody else makes it the active one where no window manager runs, and keys go to the active one.
+    QApplication::setActiveWindow(window_);
+}
+
+void WindowTest::cleanup() {
+    desktop_.reset();
+    scratch_.reset();
+}
+
+QString WindowTest::messages() const {
+    const auto* model = window_->findChild<QListView*>("messages")->model();
+    QString all;
+    for (int row = 0; row < model->rowCount(); ++row) all += model->index(row, 0).data().toString() + "\n";
+    return all;
+}
+
+void WindowTest::openSample() {
+    window_->open(sample_);
+    QTRY_VERIFY_WITH_TIMEOUT(session().survey() && idle(), kLong_ms);
+}
+
+void WindowTest::processed() {
+    if (!session().survey()) openSample();
+    action("process").trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(session().products() && idle(), kLong_ms);
+    QTRY_VERIFY_WITH_TIMEOUT(!window_->map().preparing(), kLong_ms);
+}
+
+void WindowTest::startPageOffersTheSampleAndOneClickMakesItsDem() {
+    auto* sample = window_->findChild<QPushButton*>("sample_quick_plot");
+    QVERIFY(sample != nullptr);
+    QVERIFY(sample->isVisible());
+    QTest::mouseClick(sample, Qt::LeftButton);
+    QTRY_VERIFY_WITH_TIMEOUT(session().products() && idle(), kLong_ms);
+    QTRY_VERIFY_WITH_TIMEOUT(window_->map().scene().raster != nullptr, kLong_ms);
+    QVERIFY(window_->map().isVisible());
+    QCOMPARE(window_->map().scene().raster->layer, RasterLayer::Height);
+    QVERIFY(messages().contains("Processed."));
+    QVERIFY(window_->findChild<QLabel*>("figure")->text().endsWith(" m"));
+}
+
+void WindowTest::clickTellsTheHeightThere() {
+    processed();
+    const auto& dem = session().products()->dem;
+    std::size_t cell = dem.geometry.size() / 2;
+    while (std::isnan(dem.heights_m[cell])) ++cell;
+    const Eigen::Vector3d at(dem.geometry.centreX(cell % dem.geometry.columns),
+                             dem.geometry.centreY(cell / dem.geometry.columns), 0);
+    QTest::mouseMove(&window_->map(), onScreen(at));
+    const QString shown = window_->findChild<QLabel*>("readout")->text();
+    QVERIFY2(shown.contains("height"), qPrintable(shown));
+    QTest::mouseClick(&window_->map(), Qt::LeftButton, {}, onScreen(at));
+    auto* advice = window_->findChild<QLabel*>("advice");
+    QVERIFY(advice != nullptr);
+    QVERIFY(advice->text().contains("Most of it is"));
+    bool found = false;
+    const QPointF asked = *window_->map().scene().place_m;
+    const auto own = dem.geometry.cellAt(asked.x(), asked.y());
+    QVERIFY(own.has_value());
+    const QString height = QString::number(static_cast<double>(dem.heights_m[*own]), 'f', 2) + " m";
+    for (const QLabel* label : window_->findChildren<QLabel*>("figure"))
+        found = found || label->text().startsWith(height);
+    QVERIFY2(found, qPrintable(height));
+}
+
+void WindowTest::stretchIsExcludedByDraggingAlongATrackAndUndoBringsItBack() {
+    processed();
+    const std::size_t used_before = session().products()->report.runs.back().ground_points_used;
+    MapView& map = window_->map();
+    action("tool_select_stretch").trigger();
+    QCOMPARE(map.tool(), MapTool::SelectStretch);
+    const MapTrack& track = session().map()->tracks.back();
+    const std::size_t n = track.map_m.size();
+    QTest::mousePress(&map, Qt::LeftButton, {}, onScreen(track.map_m[n / 3]));
+    QTest::mouseMove(&map, onScreen(track.map_m[n / 3 + 50]));
+    QTest::mouseMove(&map, onScreen(track.map_m[n / 3 + 120]));
+    QTest::mouseRelease(&map, Qt::LeftButton, {}, onScreen(track.map_m[n / 3 + 120]));
+    QVERIFY(session().selection().stretch().has_value());
+    QCOMPARE(session().selection().stretch()->run.toStdString(), track.run_id);
+    action("exclude").trigger();
+    QCOMPARE(session().edits().stretches.size(), std::size_t{1});
+    QVERIFY(session().outdated());
+    QVERIFY(window_->isWindowModified());
+    processed();
+    QVERIFY(!session().outdated());
+    QVERIFY(session().products()->report.runs.back().ground_points_used < used_before);
+    action("undo").trigger();
+    QVERIFY(session().edits().stretches.empty());
+    QVERIFY(!window_->isWindowModified());
+    action("redo").trigger();
+    QCOMPARE(session().edits().stretches.size(), std::size_t{1});
+}
+
+void WindowTest::breaklineIsDrawnByClicksAndHoldsTheSurface() {
+    processed();
+    MapView& map = window_->map();
+    const QRectF extent = map.scene().extent_m();
+    action("tool_hard_line").trigger();
+    const QPointF a = extent.center() - QPointF(3, 1), b = extent.center() + QPointF(3, 1);
+    QTest::mouseClick(&map, Qt::LeftButton, {}, map.transform().toScreen(a).toPoint());
+    QTest::mouseMove(&map, map.transform().toScreen(extent.center()).toPoint());
+    QVERIFY(map.scene().sketch.label.endsWith(" m"));
+    QTest::mouseClick(&map, Qt::LeftButton, {}, map.transform().toScreen(b).toPoint());
+    QTest::keyClick(&map, Qt::Key_Return);
+    QCOMPARE(session().edits().lines.size(), std::size_t{1});
+    QCOMPARE(session().edits().lines[0].vertices_m.size(), std::size_t{2});
+    QVERIFY(std::abs(session().edits().lines[0].vertices_m[0].x() - a.x()) <
+            2.0 / map.transform().pixels_per_m);
+    processed();
+    QCOMPARE(session().products()->report.surface.breaklines, std::size_t{1});
+    // A line that is begun and left leaves nothing.
+    QTest::mouseClick(&map, Qt::LeftButton, {}, map.transform().toScreen(a).toPoint());
+    QTest::keyClick(&map, Qt::Key_Escape);
+    QCOMPARE(session().edits().lines.size(), std::size_t{1});
+    QTest::keyClick(&map, Qt::Key_Escape);
+    QCOMPARE(map.tool(), MapTool::Pan);
+}
+
+void WindowTest::settingsAreCheckedAndUndone() {
+    openSample();
+    QVERIFY(session().changeSetting("surface.cell_m", "0.5"));
+    QCOMPARE(session().settings().config().surface.cell_m, 0.5);
+    QVERIFY(!session().changeSetting("surface.cell_m", "wide"));
+    QCOMPARE(session().settings().config().surface.cell_m, 0.5);
+    QVERIFY(messages().contains("surface.cell_m"));
+    action("undo").trigger();
+    QCOMPARE(session().settings().config().surface.cell_m, 0.0);
+}
+
+void WindowTest::cancelStopsSoonAndKeepsWhatWasThere() {
+    window_->open(TERRAWALK_SOURCE_DIR "/sample_surveys/mango_orchard");
+    QTRY_VERIFY_WITH_TIMEOUT(session().survey() && idle(), kLong_ms);
+    action("process").trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(window_->findChild<QProgressBar*>("progress")->value() > 20, kLong_ms);
+    QElapsedTimer timer;
+    timer.start();
+    window_->findChild<QPushButton*>("cancel")->click();
+    QTRY_VERIFY_WITH_TIMEOUT(idle(), kLong_ms);
+    // A second on a quiet machine; tests share theirs.
+    QVERIFY2(timer.elapsed() < 5000, qPrintable(QString::number(timer.elapsed())));
+    QVERIFY(!session().products());
+    QVERIFY(session().survey() != nullptr);
+    QVERIFY(messages().contains("Cancelled"));
+}
+
+void WindowTest::windowAnswersWhileItWorks() {
+    openSample();
+    action("process").trigger();
+    // Each turn of the event loop gives the window's longest silence.
+    qint64 longest_ms = 0;
+    QElapsedTimer timer;
+    while (!idle()) {
+        timer.start();
+        QCoreApplication::processEvents(QEventLoop::AllEvents, 10);
+        longest_ms = std::max(longest_ms, timer.elapsed());
+    }
+    QVERIFY2(longest_ms < 500, qPrintable(QString("blocked for %1 ms").arg(longest_ms)));
+}
+
+void WindowTest::unsavedChangesComeBackAfterTheProcessWasKilled() {
+    // Another process does the work of a person, and is killed in the middle of it.
+    QProcess other;
+    QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+    environment.insert("TERRAWALK_TEST_EDIT_AND_WAIT", sample_);
+    other.setProcessEnvironment(environment);
+    other.start(QCoreApplication::applicationFilePath(), {});
+    QByteArray said;
+    connect(&other, &QProcess::readyReadStandardOutput, this, [&] { said += other.readAllStandardOutput(); });
+    QTRY_VERIFY_WITH_TIMEOUT(said.contains("edited"), kLong_ms);
+    QCOMPARE(other.state(), QProcess::Running);
+    other.kill();
+    QVERIFY(other.waitForFinished());
+    openSample();
+    QCOMPARE(session().settings().config().surface.cell_m, 0.75);
+    QVERIFY(window_->isWindowModified());
+    QVERIFY(messages().contains("Unsaved changes"));
+    action("undo").trigger();
+    QCOMPARE(session().settings().config().surface.cell_m, 0.0);
+}
+
+void WindowTest::savedSettingsReplayedByTheCommandLineGiveTheSameBytes() {
+    openSample();
+    QVERIFY(session().changeSetting("surface.cell_m", "0.5"));
+    SurveyEdits edits = session().edits();
+    const Run& run = session().survey()->runs.back();
+    edits.stretches.push_back({run.id, 20.0, 30.0, EditedSensor::Range});
+    session().changeEdits(edits, "exclude");
+    action("save").trigger();
+    QVERIFY(!window_->isWindowModified());
+    processed();
+    QSignalSpy exported(&session(), &SurveySession::exported);
+    session().exportTo(scratch_->filePath("window").toStdString());
+    QTRY_VERIFY_WITH_TIMEOUT(exported.count() == 1, kLong_ms);
+    const QStringList arguments = session().commandArguments();
+    QVERIFY(arguments.contains("--config"));
+    QProcess command;
+    command.start(TERRAWALK_PROGRAM, arguments.mid(1) + QStringList{"-o", scratch_->filePath("command")});
+    QVERIFY(command.waitForFinished(kLong_ms));
+    QCOMPARE(command.exitCode(), 0);
+    std::size_t compared = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(scratch_->filePath("window").toStdString())) {
+        if (!entry.is_regular_file()) continue;
+        const fs::path relative = fs::relative(entry.path(), scratch_->filePath("window").toStdString());
+        const QByteArray own = bytesOf(text(entry.path()));
+        QVERIFY2(own == bytesOf(scratch_->filePath("command") + "/" + text(relative)), relative.c_str());
+        ++compared;
+    }
+    QVERIFY(compared > 10);
+}
+
+void WindowTest::exportDialogRefusesWhatCannotBe() {
+    processed();
+    action("export").trigger();
+    auto* dialog = qobject_cast<ExportDialog*>(QApplication::activeModalWidget());
+    QVERIFY(dialog != nullptr);
+    auto* go = dialog->findChild<QPushButton*>("primary");
+    for (const QString& bad : {QString(), sample_ + "/survey.json", QString("/no/such/place/out")}) {
+        dialog->setFolder(bad);
+        QVERIFY2(!go->isEnabled(), qPrintable(bad));
+        QVERIFY(!dialog->findChild<QLabel*>("problem")->text().isEmpty());
+    }
+    dialog->setFolder(scratch_->filePath("result"));
+    QVERIFY(go->isEnabled());
+    QVERIFY(dialog->findChild<QLabel*>("command")->text().contains("terrawalk process"));
+    QTest::mouseClick(dialog->findChild<QWidget*>("format_las_points"), Qt::LeftButton, {}, QPoint(8, 8));
+    QVERIFY(dialog->findChild<QLabel*>("command")->text().contains("--points las"));
+    QTest::mouseClick(go, Qt::LeftButton);
+    QTRY_VERIFY_WITH_TIMEOUT(fs::exists(scratch_->filePath("result/dem.tif").toStdString()) && idle(),
+                             kLong_ms);
+    QVERIFY(fs::exists(scratch_->filePath("result-export/ground_points.las").toStdString()));
+    // The survey's own folder must not be replaced.
+    session().exportTo(sample_.toStdString());
+    QTRY_VERIFY_WITH_TIMEOUT(idle(), kLong_ms);
+    QVERIFY(fs::exists((sample_ + "/survey.json").toStdString()));
+    QVERIFY(messages().contains("choose another folder"));
+}
+
+void WindowTest::themeAndLanguageSwitch() {
+    processed();
+    const QColor light = window_->palette().color(QPalette::Window);
+    action("theme").trigger();
+    QCOMPARE(currentTheme(), Theme::Dark);
+    QVERIFY(window_->palette().color(QPalette::Window).lightness() < light.lightness());
+    QCOMPARE(QSettings().value("theme").toString(), QString("dark"));
+    action("theme").trigger();
+    QCOMPARE(currentTheme(), Theme::Light);
+    const auto products = session().products();
+    const QString english = window_->findChild<QTabWidget*>("views")->tabText(0);
+    action("language").trigger();
+    QTRY_VERIFY(&desktop_->window() != window_);
+    window_ = &desktop_->window();
+    QVERIFY(window_->isVisible());
+    QCOMPARE(window_->findChild<QTabWidget*>("views")->tabText(0), QString::fromUtf8("地图"));
+    QVERIFY(window_->findChild<QTabWidget*>("views")->tabText(0) != english);
+    // Nothing of the work is lost.
+    QCOMPARE(session().products(), products);
+    QVERIFY(window_->map().isVisible());
+    QCOMPARE(window_->map().scene().products, products);
+    QVERIFY(messages().contains("Processed."));
+}
+
+void WindowTest::badFilesAreErrorsInTheMessagesAndLoseNothing() {
+    openSample();
+    const auto before = session().survey();
+    const QString broken = scratch_->filePath("broken.json");
+    QFile file(broken);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("{\"format\": ");
+    file.close();
+    for (const QString& bad : {broken, QString("/no/such/file.json"), scratch_->path()}) {
+        window_->open(bad);
+        QTRY_VERIFY_WITH_TIMEOUT(idle(), kLong_ms);
+        QCOMPARE(session().survey(), before);
+        QVERIFY2(messages().contains(QFileInfo(bad).fileName()), qPrintable(bad));
+    }
+    session().loadSettings(broken.toStdString());
+    QVERIFY(messages().contains("not valid JSON"));
+    QVERIFY(!window_->isWindowModified());
+}
+
+void WindowTest::droppedFolderIsOpened() {
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(sample_)});
+    QDragEnterEvent enter(QPoint(100, 100), Qt::CopyAction, &data, Qt::LeftButton, {});
+    QApplication::sendEvent(window_, &enter);
+    QVERIFY(enter.isAccepted());
+    QDropEvent drop(QPointF(100, 100), Qt::CopyAction, &data, Qt::LeftButton, {});
+    QApplication::sendEvent(window_, &drop);
+    QTRY_VERIFY_WITH_TIMEOUT(session().survey() && idle(), kLong_ms);
+}
+
+void WindowTest::earlierRunsCanBeGoneBackTo() {
+    processed();
+    const auto first = session().products();
+    QVERIFY(session().changeSetting("surface.cell_m", "1"));
+    processed();
+    QVERIFY(session().products() != first);
+    QCOMPARE(session().history().size(), std::size_t{2});
+    session().goBackTo(0);
+    QCOMPARE(session().products(), first);
+    QCOMPARE(session().settings().config().surface.cell_m, 0.0);
+    QVERIFY(!session().outdated());
+    action("undo").trigger();
+    QCOMPARE(session().settings().config().surface.cell_m, 1.0);
+    QVERIFY(session().outdated());
+}
+
+void WindowTest::keysAloneSuffice() {
+    openSample();
+    QTest::keyClick(window_, Qt::Key_F5);
+    QTRY_VERIFY_WITH_TIMEOUT(session().products() && idle(), kLong_ms);
+    QTest::keyClick(window_, Qt::Key_2, Qt::ControlModifier);
+    QCOMPARE(window_->findChild<QTabWidget*>("views")->currentIndex(), 1);
+    QTest::keyClick(window_, Qt::Key_1, Qt::ControlModifier);
+    MapView& map = window_->map();
+    map.setFocus();
+    const double scale = map.transform().pixels_per_m;
+    QTest::keyClick(&map, Qt::Key_Plus);
+    QVERIFY(map.transform().pixels_per_m > scale);
+    QTest::keyClick(&map, Qt::Key_Home);
+    QCOMPARE(map.transform().pixels_per_m, scale);
+    QTest::keyClick(window_, Qt::Key_F1);
+    QVERIFY(QApplication::activeModalWidget() != nullptr);
+    QTest::keyClick(QApplication::activeModalWidget(), Qt::Key_Escape);
+    QTRY_VERIFY(QApplication::activeModalWidget() == nullptr);
+    // Every button and field can be reached and has a name for a screen reader.
+    for (const QAbstractButton* button : window_->findChildren<QPushButton*>())
+        QVERIFY(!button->text().isEmpty());
+}
+
+}  // namespace terrawalk::gui
+
+namespace {
+
+/// The part of the test that is killed: edits a survey and waits for its end.
+int editAndWait(const QString& survey) {
+    using namespace terrawalk::gui;
+    Desktop desktop;
+    desktop.window().open(survey);
+    while (!desktop.session().survey()) QTest::qWait(10);
+    desktop.session().changeSetting("surface.cell_m", "0.75");
+    QTest::qWait(1500);  // longer than the autosave takes
+    std::printf("edited\n");
+    std::fflush(stdout);
+    QTest::qWait(60000);
+    return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    QStandardPaths::setTestModeEnabled(true);
+    QApplication app(argc, argv);
+    QApplication::setOrganizationName("Terrawalk");
+    QApplication::setApplicationName("terrawalk-test");
+    const QString survey = qEnvironmentVariable("TERRAWALK_TEST_EDIT_AND_WAIT");
+    if (!survey.isEmpty()) return editAndWait(survey);
+    terrawalk::gui::WindowTest test;
+    return QTest::qExec(&test, argc, argv);
+}
+
+#include "test_window.moc"
