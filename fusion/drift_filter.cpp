@@ -98,6 +98,7 @@ Result<DriftFilterResult> filterWithDrifts(const Survey& survey, const Run& run,
         result.fused.trajectory.epochs.push_back(epoch);
     }
     result.fused.sensors = filter.sensors();
+    result.fused.innovations = filter.innovations();
     filter.note(result.fused.notes.details);
     result.gnss_jump_m = model.gnssJumpSizes();
     if (std::string note = gnssJumpsNote(run.log, result.gnss_jump_m); !note.empty()) {

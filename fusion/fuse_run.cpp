@@ -156,6 +156,7 @@ Result<FusedRun> filteredRun(const Survey& survey, const Run& run, const FusionO
             estimates[i], reference.height_reference_variance_m2, run.log.time_s[i], attitudes[i]));
     }
     fused.sensors = filter.sensors();
+    fused.innovations = filter.innovations();
     filter.note(fused.notes.details);
     return fused;
 }

@@ -73,12 +73,13 @@ void RunFilter::note(std::vector<std::string>& notes) const {
     }
 }
 
-// The worst |innovation| / sigma of a reading's rows.
+// Innovation over sigma of the worst of a reading's rows, with its sign.
 double RunFilter::worstDeviation(std::size_t epoch, const Reading& reading) const {
     double worst = 0.0;
     for (std::size_t r = 0; r < reading.row_count; ++r) {
         const RowTest row = model_.test(epoch, reading, r);
-        worst = std::max(worst, std::abs(row.innovation) / row.sigma);
+        const double own = row.innovation / row.sigma;
+        if (std::abs(own) > std::abs(worst)) worst = own;
     }
     return worst;
 }
@@ -104,7 +105,7 @@ void RunFilter::readmit(std::size_t epoch) {
         if (!mayBeReadmitted(reading.sensor) || reading.row_count == 0) continue;
         const double rejected_s = rejectionOf(reading.sensor).lasted(time(epoch), robust.longest_gap_s);
         if (!(rejected_s >= robust.readmit_after_s)) continue;
-        if (worstDeviation(epoch, reading) <= robust.gate_sigma) continue;
+        if (std::abs(worstDeviation(epoch, reading)) <= robust.gate_sigma) continue;
         model_.readmit(epoch, reading);
         ++readmissions_;
     }
@@ -116,8 +117,9 @@ void RunFilter::applyReading(std::size_t epoch, const Reading& reading) {
         return;
     }
     const RobustOptions& robust = context_.options.robust;
-    const double deviation = robust.use ? worstDeviation(epoch, reading) : 0.0;
-    const bool outside = deviation > robust.gate_sigma;
+    const double deviation = worstDeviation(epoch, reading);
+    const bool outside = robust.use && std::abs(deviation) > robust.gate_sigma;
+    record_.add(reading.sensor, time(epoch), deviation, !outside);
     if (reading.sensor == Sensor::GnssPosition) watchGnss(epoch, reading, outside);
     rejectionOf(reading.sensor).tell(outside, time(epoch), robust.longest_gap_s);
     gated_[static_cast<std::size_t>(reading.sensor)] = outside;
@@ -126,16 +128,20 @@ void RunFilter::applyReading(std::size_t epoch, const Reading& reading) {
         return;
     }
     bool down_weighted = false;
+    double nis = 0.0;
     for (std::size_t r = 0; r < reading.row_count; ++r) {
         double excess = 1.0;
+        const RowTest row = model_.test(epoch, reading, r);
+        // Row after row, each against what the ones before it left: together they are nu' S^-1 nu.
+        nis += row.innovation * row.innovation / (row.sigma * row.sigma);
         if (robust.use) {
-            const RowTest row = model_.test(epoch, reading, r);
             excess = std::max(1.0, std::abs(row.innovation) / (row.sigma * robust.huber_sigma));
         }
         down_weighted = down_weighted || excess > 1.0;
         model_.update(epoch, reading, r, excess);
     }
     ledger_.use(reading.sensor, down_weighted);
+    record_.addNis(reading.sensor, nis, reading.row_count);
     remember(epoch, reading);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fusion/innovation_record.hpp"
 #include "fusion/sensor_ledger.hpp"
 #include "fusion/sensor_readings.hpp"
 #include "survey/result.hpp"
@@ -66,6 +67,7 @@ class RunFilter {
     /// Whether a reading of the sensor was dropped in the latest epoch because it lay beyond the gate.
     [[nodiscard]] bool gated(Sensor sensor) const { return gated_[static_cast<std::size_t>(sensor)]; }
     [[nodiscard]] std::vector<SensorUse> sensors() const { return ledger_.uses(); }
+    [[nodiscard]] std::vector<SensorInnovations> innovations() const { return record_.sensors(); }
     /// Adds what a reader of the result should know.
     void note(std::vector<std::string>& notes) const;
 
@@ -87,6 +89,7 @@ class RunFilter {
     FilterModel& model_;
     SensorMemory memory_;
     SensorLedger ledger_;
+    InnovationRecord record_;
     std::vector<Reading> readings_;
     std::array<Spell, kSensorCount> rejections_{};
     std::array<bool, kSensorCount> gated_{};

@@ -53,6 +53,18 @@ struct SensorConsistency {
     double mean_nis = 0.0;  ///< normalised innovation squared
 };
 
+/// What a filter was surprised by: one reading of a sensor, or the worst of some that follow one another.
+struct Innovation {
+    double time_s = 0.0;
+    float over_sigma = 0.0F;  ///< value less prediction of the worst row, over the sigma of that
+    bool used = true;         ///< not beyond the gate
+};
+
+struct SensorInnovations {
+    SensorConsistency consistency;     ///< names the sensor; of the readings that were used
+    std::vector<Innovation> readings;  ///< in time order; empty from methods that keep only sums
+};
+
 /// What a reader of the results should know of a run, in plain words.
 struct RunNotes {
     std::vector<std::string> limitations;  ///< what the log lacks as a whole, and what stands in for it
@@ -109,6 +121,7 @@ struct FusedRun {
     std::vector<SensorUse> sensors;
     RunNotes notes;
     std::vector<SensorConsistency> consistency;  ///< from methods that compute it
+    std::vector<SensorInnovations> innovations;  ///< from methods that filter epoch by epoch
 };
 
 }  // namespace terrawalk

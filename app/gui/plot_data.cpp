@@ -17,10 +17,6 @@ constexpr double kGapSteps = 2.5;
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMostGnssDots = 200'000;
 
-QString translated(const char* text) {
-    return QCoreApplication::translate("PlotData", text);
-}
-
 QString text(std::string_view utf8) {
     return QString::fromUtf8(utf8.data(), static_cast<qsizetype>(utf8.size()));
 }
@@ -85,7 +81,7 @@ void addChannels(Plot& plot, const ArrayLog& log, const QString& label, const QS
                  std::initializer_list<ChannelLine> channels) {
     PlotPanel panel{label, unit, decimals, {}, false};
     for (const ChannelLine& line : channels) {
-        auto series = channelSeries(log, line.channel, translated(line.name),
+        auto series = channelSeries(log, line.channel, QCoreApplication::translate("PlotData", line.name),
                                     static_cast<SeriesInk>(panel.series.size()), line.factor);
         if (!series.x.empty()) panel.series.push_back(std::move(series));
     }
@@ -260,6 +256,87 @@ Plot sigmaPlot(const Trajectory& trajectory) {
     return plot;
 }
 
+PlotSeries guide(double from, double to, double y, const QString& name = {}) {
+    return {name, SeriesStyle::Guide, SeriesInk::Quiet, {from, to}, {y, y}, {}};
+}
+
+Plot noFilter() {
+    Plot plot;
+    plot.reason = QCoreApplication::translate(
+        "PlotData",
+        "The method that was used has no filter that foretells readings. Choose another one and "
+        "process again.");
+    return plot;
+}
+
+/// What the filter was surprised by, sensor by sensor.
+Plot innovationPlot(const std::vector<SensorInnovations>& sensors) {
+    Plot plot;
+    for (const SensorInnovations& sensor : sensors) {
+        if (sensor.readings.empty()) continue;
+        PlotSeries used{
+            QCoreApplication::translate("PlotData", "used"), SeriesStyle::Dots, SeriesInk::First, {}, {}, {}};
+        PlotSeries gated{QCoreApplication::translate("PlotData", "beyond the gate"),
+                         SeriesStyle::Dots,
+                         SeriesInk::Second,
+                         {},
+                         {},
+                         {}};
+        for (const Innovation& reading : sensor.readings) {
+            PlotSeries& series = reading.used ? used : gated;
+            series.x.push_back(reading.time_s);
+            series.y.push_back(static_cast<double>(reading.over_sigma));
+        }
+        const double from = sensor.readings.front().time_s, to = sensor.readings.back().time_s;
+        PlotPanel panel{text(sensor.consistency.sensor), "σ", 1, {}, false};
+        gated.sets_scale = used.x.empty();
+        panel.series.push_back(std::move(used));
+        if (!gated.x.empty()) panel.series.push_back(std::move(gated));
+        panel.series.push_back(guide(from, to, kBand95, QString::fromUtf8("± 1.96")));
+        panel.series.push_back(guide(from, to, -kBand95));
+        plot.panels.push_back(std::move(panel));
+    }
+    if (plot.panels.empty()) return noFilter();
+    plot.note = QCoreApplication::translate(
+        "PlotData",
+        "Reading less what the filter foretold, over the sigma of that: 95 % between the lines is "
+        "right.");
+    return plot;
+}
+
+Plot consistencyPlot(const std::vector<SensorInnovations>& sensors) {
+    Plot plot;
+    PlotSeries bars{QCoreApplication::translate("PlotData", "Mean NIS over its degrees of freedom"),
+                    SeriesStyle::Bars,
+                    SeriesInk::First,
+                    {},
+                    {},
+                    {}};
+    for (const SensorInnovations& sensor : sensors) {
+        const SensorConsistency& sums = sensor.consistency;
+        if (sums.n == 0 || !(sums.dof > 0.0)) continue;
+        bars.x.push_back(static_cast<double>(plot.categories.size()));
+        bars.y.push_back(sums.mean_nis / sums.dof);
+        plot.categories << QString("%1 (%2)").arg(text(sums.sensor)).arg(sums.n);
+    }
+    if (bars.x.empty()) return noFilter();
+    plot.bar_width = 0.5;
+    plot.x_label = QCoreApplication::translate("PlotData", "Sensor (readings used)");
+    const double last = static_cast<double>(plot.categories.size()) - 0.5;
+    plot.panels.push_back({QCoreApplication::translate("PlotData", "Mean NIS over degrees of freedom"),
+                           {},
+                           2,
+                           {std::move(bars)},
+                           true});
+    plot.panels.back().series.push_back(
+        guide(-0.5, last, 1.0, QCoreApplication::translate("PlotData", "right")));
+    plot.note = QCoreApplication::translate(
+        "PlotData",
+        "Normalised innovations squared. Above 1 the filter is too sure of this sensor, below 1 not "
+        "sure enough; gates and weights make it smaller.");
+    return plot;
+}
+
 Plot groundPlot(std::size_t run, const Products& products) {
     Plot plot;
     std::array<PlotSeries, kGroundPointStateCount> by_state;
@@ -296,10 +373,6 @@ Plot groundPlot(std::size_t run, const Products& products) {
         plot.panels.push_back(std::move(panel));
     }
     return plot;
-}
-
-PlotSeries guide(double from, double to, double y, const QString& name = {}) {
-    return {name, SeriesStyle::Guide, SeriesInk::Quiet, {from, to}, {y, y}, {}};
 }
 
 /// Errors over their predicted sigma, axis by axis, mark by mark.
@@ -363,7 +436,8 @@ Plot normalisedErrors(const SurveyReport& report) {
         panel.series.push_back(guide(-0.5, last, 0.0));
     }
     if (n > 0) {
-        plot.note = translated(
+        plot.note = QCoreApplication::translate(
+                        "PlotData",
                         "%1 of %2 errors lie within 1.96 σ (%3 %); 95 % is right. Marks that the estimator "
                         "used do not count.")
                         .arg(within)
@@ -411,7 +485,8 @@ Moments momentsOf(const std::vector<double>& values) {
 
 Plot fewErrors() {
     Plot plot;
-    plot.reason = translated(
+    plot.reason = QCoreApplication::translate(
+        "PlotData",
         "Too few marks to show how errors spread: three at least, that the estimator did "
         "not use.");
     return plot;
@@ -508,7 +583,8 @@ Plot quantiles(const SurveyReport& report) {
 Plot crossValidation(const SurveyReport& report) {
     Plot plot;
     if (!report.surface.comparison) {
-        plot.reason = translated(
+        plot.reason = QCoreApplication::translate(
+            "PlotData",
             "Ways of interpolating were not compared. Set the surface's method to auto and "
             "process again.");
         return plot;
@@ -598,6 +674,12 @@ Plot unnamedPlot(PlotKind kind, std::size_t run, const Survey& survey, const Pro
             return sigmaPlot(products->trajectories[run]);
         case PlotKind::GroundHeights:
             return groundPlot(run, *products);
+        case PlotKind::Innovations:
+        case PlotKind::Consistency: {
+            if (run >= products->innovations.size()) return noFilter();
+            const auto& sensors = products->innovations[run];
+            return kind == PlotKind::Innovations ? innovationPlot(sensors) : consistencyPlot(sensors);
+        }
         case PlotKind::NormalisedErrors:
             return normalisedErrors(products->report);
         case PlotKind::ErrorHistogram:
@@ -626,6 +708,8 @@ const std::vector<PlotKind>& allPlots() {
                                            PlotKind::Speed,
                                            PlotKind::Sigma,
                                            PlotKind::GroundHeights,
+                                           PlotKind::Innovations,
+                                           PlotKind::Consistency,
                                            PlotKind::NormalisedErrors,
                                            PlotKind::ErrorHistogram,
                                            PlotKind::QuantileQuantile,
@@ -660,6 +744,10 @@ QString plotName(PlotKind kind) {
             return QCoreApplication::translate("PlotData", "Sigmas");
         case PlotKind::GroundHeights:
             return QCoreApplication::translate("PlotData", "Ground points");
+        case PlotKind::Innovations:
+            return QCoreApplication::translate("PlotData", "Innovations");
+        case PlotKind::Consistency:
+            return QCoreApplication::translate("PlotData", "Consistency (NIS)");
         case PlotKind::NormalisedErrors:
             return QCoreApplication::translate("PlotData", "Errors over sigma");
         case PlotKind::ErrorHistogram:
@@ -676,13 +764,13 @@ QString plotName(PlotKind kind) {
 
 QString plotGroup(PlotKind kind) {
     if (kind <= PlotKind::Range) return QCoreApplication::translate("PlotData", "Sensors");
-    if (kind <= PlotKind::GroundHeights) return QCoreApplication::translate("PlotData", "Fused run");
+    if (kind <= PlotKind::Consistency) return QCoreApplication::translate("PlotData", "Fused run");
     if (kind <= PlotKind::QuantileQuantile) return QCoreApplication::translate("PlotData", "Errors at marks");
     return QCoreApplication::translate("PlotData", "Choices");
 }
 
 bool plotsOneRun(PlotKind kind) {
-    return kind <= PlotKind::GroundHeights;
+    return kind <= PlotKind::Consistency;
 }
 
 QString likelySensor(PlotKind kind) {
@@ -710,6 +798,8 @@ Plot plotOf(PlotKind kind, std::size_t run, const Survey& survey, const Products
     if (plotsOneRun(kind) && run < survey.runs.size()) {
         plot.title =
             QCoreApplication::translate("PlotData", "%1, run %2").arg(plot.title, text(survey.runs[run].id));
+    }
+    if (plotsOneRun(kind) && plot.categories.isEmpty()) {
         plot.over_time = true;
         plot.x_label = QCoreApplication::translate("PlotData", "Time of the log");
         plot.x_unit = "s";

@@ -25,6 +25,8 @@ enum class PlotKind {
     Speed,
     Sigma,
     GroundHeights,
+    Innovations,
+    Consistency,
     // The whole survey.
     NormalisedErrors,
     ErrorHistogram,

@@ -17,10 +17,6 @@ constexpr double kMargin_px = 16.0;
 constexpr double kCompass_px = 56.0;
 constexpr double kPinHeight_px = 22.0;
 
-QString translated(const char* text) {
-    return QCoreApplication::translate("TerrainFurniture", text);
-}
-
 std::optional<QPointF> onScreen(const TerrainFrame& frame, const Eigen::Vector3d& map_m) {
     const auto seen = frame.camera.project(frame.scene->toScene(map_m, frame.exaggeration));
     if (!seen) return std::nullopt;
@@ -239,9 +235,11 @@ void drawTerrainFurniture(QPainter& painter, const TerrainFrame& frame, const Ma
     drawCompass(painter, frame, {right - kCompass_px / 2.0, kMargin_px + kCompass_px / 2.0}, palette);
     drawLegends(painter, map, {right, kMargin_px + kCompass_px + 8.0}, palette);
     QString note = exaggerationText(frame.exaggeration);
-    note = note.isEmpty() ? translated("Heights as they are") : translated("Heights %1").arg(note);
+    note = note.isEmpty() ? QCoreApplication::translate("TerrainFurniture", "Heights as they are")
+                          : QCoreApplication::translate("TerrainFurniture", "Heights %1").arg(note);
     if (frame.contour_interval_m > 0.0) {
-        note += translated(", contours every %1").arg(shortLength(frame.contour_interval_m));
+        note += QCoreApplication::translate("TerrainFurniture", ", contours every %1")
+                    .arg(shortLength(frame.contour_interval_m));
     }
     drawNote(painter, {kMargin_px, bottom - kMargin_px}, note, palette);
 }

@@ -580,7 +580,14 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
 
     products.surface = ground.mesh;
     products.crs_wkt2 = projection->wkt2();
-    for (FusedRun& run : fused->runs) products.trajectories.push_back(std::move(run.trajectory));
+    for (FusedRun& run : fused->runs) {
+        products.trajectories.push_back(std::move(run.trajectory));
+        // Methods that filter many epochs at once tell the sums alone.
+        if (run.innovations.empty()) {
+            for (SensorConsistency& sums : run.consistency) run.innovations.push_back({std::move(sums), {}});
+        }
+        products.innovations.push_back(std::move(run.innovations));
+    }
     progress.report(1.0, "processed");
     return products;
 }

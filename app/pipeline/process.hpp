@@ -23,6 +23,7 @@ namespace terrawalk {
 /// Everything that one run of the pipeline makes, in memory.
 struct Products {
     std::vector<Trajectory> trajectories;           ///< one for each run of the survey, in its order
+    std::vector<std::vector<SensorInnovations>> innovations;  ///< of each run, from methods that filter
     std::vector<GroundPoint> ground_points;         ///< of all runs, run by run; local ENU
     TriangleMesh surface;                           ///< map frame
     ElevationGrid dem;                              ///< map frame

@@ -400,6 +400,62 @@
             <source>Time of the log</source>
             <translation>记录时间</translation>
         </message>
+        <message>
+            <source>The method that was used has no filter that foretells readings. Choose another one and process again.</source>
+            <translation>所用方法没有预测读数的滤波器。请选择其他方法并重新处理。</translation>
+        </message>
+        <message>
+            <source>used</source>
+            <translation>已用</translation>
+        </message>
+        <message>
+            <source>beyond the gate</source>
+            <translation>超出门限</translation>
+        </message>
+        <message>
+            <source>Reading less what the filter foretold, over the sigma of that: 95 % between the lines is right.</source>
+            <translation>读数减滤波预测，除以其 σ：95 % 落在两线之间为正常。</translation>
+        </message>
+        <message>
+            <source>Mean NIS over its degrees of freedom</source>
+            <translation>平均 NIS 除以自由度</translation>
+        </message>
+        <message>
+            <source>Sensor (readings used)</source>
+            <translation>传感器（使用读数）</translation>
+        </message>
+        <message>
+            <source>Mean NIS over degrees of freedom</source>
+            <translation>平均 NIS / 自由度</translation>
+        </message>
+        <message>
+            <source>right</source>
+            <translation>正常</translation>
+        </message>
+        <message>
+            <source>Normalised innovations squared. Above 1 the filter is too sure of this sensor, below 1 not sure enough; gates and weights make it smaller.</source>
+            <translation>归一化新息平方。大于 1 表示滤波器对该传感器过于自信，小于 1 表示信心不足；门限和降权会使其变小。</translation>
+        </message>
+        <message>
+            <source>%1 of %2 errors lie within 1.96 σ (%3 %); 95 % is right. Marks that the estimator used do not count.</source>
+            <translation>%2 个误差中有 %1 个在 1.96 σ 以内（%3 %），95 % 为正常。参与估计的标志点不计。</translation>
+        </message>
+        <message>
+            <source>Too few marks to show how errors spread: three at least, that the estimator did not use.</source>
+            <translation>标志点太少，无法显示误差分布：至少需要三个未参与估计的标志点。</translation>
+        </message>
+        <message>
+            <source>Ways of interpolating were not compared. Set the surface's method to auto and process again.</source>
+            <translation>未比较内插方法。请将曲面方法设为 auto 并重新处理。</translation>
+        </message>
+        <message>
+            <source>Innovations</source>
+            <translation>新息</translation>
+        </message>
+        <message>
+            <source>Consistency (NIS)</source>
+            <translation>一致性 (NIS)</translation>
+        </message>
     </context>
     <context>
         <name>ProfilePlot</name>
@@ -627,6 +683,21 @@
         <message>
             <source>Export</source>
             <translation>导出</translation>
+        </message>
+    </context>
+    <context>
+        <name>TerrainFurniture</name>
+        <message>
+            <source>Heights as they are</source>
+            <translation>高程未夸大</translation>
+        </message>
+        <message>
+            <source>Heights %1</source>
+            <translation>高程 %1</translation>
+        </message>
+        <message>
+            <source>, contours every %1</source>
+            <translation>，等高距 %1</translation>
         </message>
     </context>
     <context>

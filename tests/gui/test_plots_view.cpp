@@ -29,6 +29,7 @@ class TestPlotsView : public QObject {
     void gapsOfASensorBreakItsLine();
     void bandIsOfTheCovariance();
     void groundPointsAreAllThere();
+    void innovationsAreThoseOfTheFilter();
     void histogramCountsEachErrorOnce();
     void everyPlotSaysSomething();
     void dragSelectsAStretch();
@@ -188,6 +189,25 @@ void TestPlotsView::groundPointsAreAllThere() {
         there += point.run == run && point.enu_m.allFinite() ? 1U : 0U;
     }
     QCOMPARE(plotted, there);
+}
+
+void TestPlotsView::innovationsAreThoseOfTheFilter() {
+    const std::size_t run = sample_.survey->runs.size() - 1;
+    const auto& sensors = sample_.products->innovations.at(run);
+    QVERIFY(sensors.size() > 2);
+    const Plot plot = plotOf(PlotKind::Innovations, run, *sample_.survey, sample_.products.get());
+    QVERIFY(plot.over_time);
+    std::size_t plotted = 0, there = 0;
+    for (const PlotPanel& panel : plot.panels) {
+        for (const PlotSeries& series : panel.series)
+            plotted += series.style == SeriesStyle::Dots ? series.x.size() : 0;
+    }
+    for (const SensorInnovations& sensor : sensors) there += sensor.readings.size();
+    QCOMPARE(plotted, there);
+    const Plot bars = plotOf(PlotKind::Consistency, run, *sample_.survey, sample_.products.get());
+    QVERIFY(!bars.over_time);
+    const auto& first = sensors.front().consistency;
+    QCOMPARE(bars.panels.at(0).series.at(0).y.at(0), first.mean_nis / first.dof);
 }
 
 void TestPlotsView::histogramCountsEachErrorOnce() {
@@ -429,7 +449,6 @@ void TestPlotsView::pictures() {
 }
 
 int main(int argc, char** argv) {
-    Q_INIT_RESOURCE(gui);
     QApplication app(argc, argv);
     TestPlotsView test;
     return QTest::qExec(&test, argc, argv);

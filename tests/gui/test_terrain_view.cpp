@@ -757,7 +757,6 @@ void TestTerrainView::pictures() {
 }
 
 int main(int argc, char** argv) {
-    Q_INIT_RESOURCE(gui);
     QApplication app(argc, argv);
     TestTerrainView test;
     return QTest::qExec(&test, argc, argv);
