@@ -120,6 +120,12 @@ void MainWindow::buildViews() {
     plots_ = new PlotsView(session_.selection());
     plots_->setObjectName("plots");
     accuracy_ = new AccuracyPanel(session_.selection());
+    report_ = new ReportView;
+    report_->setObjectName("report");
+    connect(report_, &ReportView::failed, this,
+            [this](const QString& problem) { say(MessageKind::Error, problem); });
+    connect(report_, &ReportView::saved, this,
+            [this](const QString& path) { say(MessageKind::Done, tr("Saved to %1.").arg(path)); });
     views_ = new QTabWidget;
     views_->setObjectName("views");
     views_->setDocumentMode(true);
@@ -128,12 +134,6 @@ void MainWindow::buildViews() {
     views_->addTab(plots_, tr("Plots"));
     views_->addTab(accuracy_, tr("Accuracy"));
     views_->addTab(report_, tr("Report"));
-    report_ = new ReportView;
-    report_->setObjectName("report");
-    connect(report_, &ReportView::failed, this,
-            [this](const QString& problem) { say(MessageKind::Error, problem); });
-    connect(report_, &ReportView::saved, this,
-            [this](const QString& path) { say(MessageKind::Done, tr("Saved to %1.").arg(path)); });
     start_ = new StartPage;
     pages_ = new QStackedWidget;
     pages_->addWidget(start_);
