@@ -453,7 +453,7 @@ void MainWindow::showProducts() {
     terrain_->show(survey, session_.map(), session_.products());
     plots_->show(survey, session_.map(), session_.products());
     accuracy_->show(session_.products());
-    report_->show(session_.products());
+    report_->show(survey, session_.products());
     place_->clear();
     showTree();
     enableActions();

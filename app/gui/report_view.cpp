@@ -19,7 +19,6 @@
 #include <algorithm>
 
 #include "app/gui/theme.hpp"
-#include "app/pipeline/report_file.hpp"
 
 namespace terrawalk::gui {
 
@@ -69,7 +68,7 @@ ReportView::ReportView(QWidget* parent) : QWidget(parent) {
         if (watcher_.future().resultCount() > 0) take(watcher_.result());
     });
     themeChanged();
-    show(nullptr);
+    show(nullptr, nullptr);
 }
 
 ReportView::~ReportView() {
@@ -81,7 +80,8 @@ void ReportView::themeChanged() {
     print_->setIcon(icon("print"));
 }
 
-void ReportView::show(std::shared_ptr<const Products> products) {
+void ReportView::show(std::shared_ptr<const Survey> survey, std::shared_ptr<const Products> products) {
+    survey_ = std::move(survey);
     products_ = std::move(products);
     current_ = false;
     pages_.clear();
@@ -98,8 +98,8 @@ void ReportView::make() {
     if (!products_) return;
     current_ = true;
     const QString file = folder_.filePath("report.pdf");
-    watcher_.setFuture(QtConcurrent::run([products = products_, file]() -> Made {
-        if (const auto written = writeReport(*products, file.toStdString()); !written) {
+    watcher_.setFuture(QtConcurrent::run([survey = survey_, products = products_, file]() -> Made {
+        if (const auto written = writeReport(*survey, *products, file.toStdString()); !written) {
             return {{}, QString::fromStdString(written.error().text()), {}};
         }
         const auto document = opened(file);

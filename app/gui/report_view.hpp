@@ -25,7 +25,7 @@ class ReportView : public QWidget {
   public:
     explicit ReportView(QWidget* parent = nullptr);
     ~ReportView() override;
-    void show(std::shared_ptr<const Products> products);
+    void show(std::shared_ptr<const Survey> survey, std::shared_ptr<const Products> products);
     using QWidget::show;
     void themeChanged();
     /// Whether the report is being made or drawn.
@@ -56,6 +56,7 @@ class ReportView : public QWidget {
     void layOut();
     void askAndSave();
     void askAndPrint();
+    std::shared_ptr<const Survey> survey_;
     std::shared_ptr<const Products> products_;
     bool current_ = false;  ///< the pages are those of the products
     QTemporaryDir folder_;

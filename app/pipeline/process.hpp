@@ -51,6 +51,10 @@ struct Provenance {
                                          const Provenance& provenance, OutputFolder& folder,
                                          Progress& progress, std::stop_token stop);
 
+/// Writes report.pdf alone, the same bytes as writeProducts(). Errors: as there.
+[[nodiscard]] Result<void> writeReport(const Survey& survey, const Products& products,
+                                       const std::filesystem::path& file);
+
 /// The few lines that a person reads first: the files that matter and how good the surface is.
 [[nodiscard]] std::string summaryText(const Products& products);
 

@@ -120,15 +120,29 @@ void addUncertainty(const Products& products, const Survey& survey,
     }
 }
 
-}  // namespace
-
-Result<void> writeProducts(const Survey& survey, const Products& products, const Provenance& provenance,
-                           OutputFolder& folder, Progress& progress, std::stop_token stop) {
+/// The report with what only its writers need to know: the hashes of the inputs.
+Result<SurveyReport> reportToWrite(const Survey& survey, const Products& products) {
     SurveyReport report = products.report;
-    progress.report(0.0, "hashing the inputs");
     auto inputs = describeInputs(survey);
     if (!inputs) return tl::unexpected(inputs.error());
     report.inputs = std::move(*inputs);
+    return report;
+}
+
+}  // namespace
+
+Result<void> writeReport(const Survey& survey, const Products& products, const fs::path& file) {
+    const auto report = reportToWrite(survey, products);
+    if (!report) return tl::unexpected(report.error());
+    return writeReportPdf(*report, file);
+}
+
+Result<void> writeProducts(const Survey& survey, const Products& products, const Provenance& provenance,
+                           OutputFolder& folder, Progress& progress, std::stop_token stop) {
+    progress.report(0.0, "hashing the inputs");
+    const auto hashed = reportToWrite(survey, products);
+    if (!hashed) return tl::unexpected(hashed.error());
+    const SurveyReport& report = *hashed;
 
     std::vector<std::string> files;
     std::vector<std::pair<std::string, Writer>> writers{
