@@ -223,8 +223,10 @@ void MainWindow::buildDocks() {
     profile_->setObjectName("profile_plot");
     profile_->setMinimumHeight(160);
     profile_dock_ = addDock(Qt::BottomDockWidgetArea, "dock_profile", tr("Profile"), profile_);
-    profile_dock_->hide();
     auto* message_dock = addDock(Qt::BottomDockWidgetArea, "dock_messages", tr("Messages"), messages_);
+    // Both want the whole width.
+    tabifyDockWidget(message_dock, profile_dock_);
+    profile_dock_->hide();
     resizeDocks({tree_dock, steps_dock}, {288, 328}, Qt::Horizontal);
     resizeDocks({tree_dock, place_dock}, {340, 340}, Qt::Vertical);
     resizeDocks({message_dock}, {120}, Qt::Vertical);

@@ -157,16 +157,16 @@ void addSamples(QVBoxLayout& column, const PlaceReport& place) {
 }  // namespace
 
 PlacePanel::PlacePanel(QWidget* parent) : QFrame(parent) {
-    auto* scroll = new QScrollArea;
-    scroll->setWidgetResizable(true);
-    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    scroll_ = new QScrollArea;
+    scroll_->setWidgetResizable(true);
+    scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     auto* outer = new QVBoxLayout(this);
     outer->setContentsMargins(0, 0, 0, 0);
-    outer->addWidget(scroll);
+    outer->addWidget(scroll_);
     auto* holder = new QWidget;
     column_ = new QVBoxLayout(holder);
     column_->setContentsMargins(2 * kGrid_px, kGrid_px, 2 * kGrid_px, kGrid_px);
-    scroll->setWidget(holder);
+    scroll_->setWidget(holder);
     clear();
 }
 
@@ -211,6 +211,18 @@ void PlacePanel::show(const PlaceReport& place) {
     if (place.parts) addSigma(column, place);
     if (!place.nearest.empty()) addSamples(column, place);
     column.addStretch();
+    fitHeight();
+}
+
+void PlacePanel::resizeEvent(QResizeEvent*) {
+    fitHeight();
+}
+
+// Wrapped texts are as high as the panel is narrow: their layout asks for too little by itself.
+void PlacePanel::fitHeight() {
+    const QMargins margins = column_->contentsMargins();
+    const int width = scroll_->viewport()->width() - margins.left() - margins.right();
+    content_->setMinimumHeight(content_->layout()->heightForWidth(std::max(width, 120)));
 }
 
 }  // namespace terrawalk::gui

@@ -6,6 +6,7 @@
 
 class QGridLayout;
 class QLabel;
+class QScrollArea;
 class QVBoxLayout;
 
 namespace terrawalk::gui {
@@ -22,8 +23,13 @@ class PlacePanel : public QFrame {
   Q_SIGNALS:
     void sampleAsked(const QString& run, double time_s);
 
+  protected:
+    void resizeEvent(QResizeEvent* event) override;
+
   private:
     void rebuild();
+    void fitHeight();
+    QScrollArea* scroll_ = nullptr;
     QVBoxLayout* column_ = nullptr;
     QWidget* content_ = nullptr;
 };

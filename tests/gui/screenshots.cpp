@@ -13,6 +13,8 @@
 
 #include "app/gui/desktop.hpp"
 #include "app/gui/language.hpp"
+#include "app/gui/report_view.hpp"
+#include "app/gui/terrain_view.hpp"
 #include "app/gui/theme.hpp"
 
 namespace {
@@ -32,7 +34,12 @@ class Camera {
     Camera(MainWindow& window, QDir folder, QString suffix)
         : window_(window), folder_(std::move(folder)), suffix_(std::move(suffix)) {}
     void shoot(const QString& name, QWidget* what = nullptr) {
-        waitFor([this] { return !window_.map().preparing(); }, 20000);
+        waitFor(
+            [this] {
+                return !window_.map().preparing() && !window_.findChild<ReportView*>()->preparing() &&
+                       !window_.findChild<TerrainView*>()->building();
+            },
+            60000);
         QTest::qWait(150);
         const QString file = folder_.filePath(name + suffix_ + ".png");
         (what != nullptr ? what : &window_)->grab().save(file);
