@@ -512,7 +512,7 @@ void MainWindow::takeLine(MapTool tool, const QPolygonF& vertices_m) {
     say(MessageKind::Info, tr("Line drawn: process again, and the surface keeps to it."));
 }
 
-void MainWindow::excludeStretch(const TrackStretch& stretch, EditedSensor sensor) {
+void MainWindow::excludeStretch(TrackStretch stretch, EditedSensor sensor) {
     SurveyEdits edits = session_.edits();
     edits.stretches.push_back({nameOf(stretch.run), stretch.from_s, stretch.to_s, sensor});
     session_.changeEdits(edits, tr("exclude a stretch"));

@@ -83,7 +83,8 @@ class MainWindow : public QMainWindow {
     void enableActions();
     void askPlace(QPointF map_m);
     void takeLine(MapTool tool, const QPolygonF& vertices_m);
-    void excludeStretch(const TrackStretch& stretch, EditedSensor sensor);
+    /// By value: the selection, which it may come from, ends here.
+    void excludeStretch(TrackStretch stretch, EditedSensor sensor);
     void excludeSelected();
     void leaveOut(int kind, const QString& id, bool out);
     void treeMenu(const QPoint& at);
