@@ -2,6 +2,7 @@
 
 #include <QApplication>
 #include <QFile>
+#include <QHash>
 #include <QPainter>
 #include <QPalette>
 #include <QPixmap>
@@ -151,6 +152,15 @@ QByteArray svgOf(const QString& name) {
     return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
 }
 
+/// Drawn once: a tree of a hundred marks asks for the same one a hundred times.
+QHash<QString, QIcon>& drawnIcons() {
+    static QHash<QString, QIcon> drawn;
+    // Pictures must go before the application does.
+    static const bool registered = (qAddPostRoutine([] { drawnIcons().clear(); }), true);
+    static_cast<void>(registered);
+    return drawn;
+}
+
 void addPixmaps(QIcon& icon, QByteArray svg, const QColor& ink, QIcon::Mode mode, QIcon::State state) {
     svg.replace("currentColor", ink.name().toUtf8());
     QSvgRenderer renderer(svg);
@@ -206,12 +216,18 @@ QColor errorColour() {
 }
 
 QIcon icon(const QString& name, const QColor& colour) {
+    QHash<QString, QIcon>& drawn = drawnIcons();
+    const QColor ink = colour.isValid() ? colour : colours().text;
+    const QColor faint = colours().line.darker(current == Theme::Light ? 120 : 80);
+    const QString key = name + ink.name(QColor::HexArgb) + faint.name();
+    const auto found = drawn.constFind(key);
+    if (found != drawn.constEnd()) return *found;
     const QByteArray svg = svgOf(name);
     QIcon made;
     if (svg.isEmpty()) return made;
-    addPixmaps(made, svg, colour.isValid() ? colour : colours().text, QIcon::Normal, QIcon::Off);
-    addPixmaps(made, svg, colours().line.darker(current == Theme::Light ? 120 : 80), QIcon::Disabled,
-               QIcon::Off);
+    addPixmaps(made, svg, ink, QIcon::Normal, QIcon::Off);
+    addPixmaps(made, svg, faint, QIcon::Disabled, QIcon::Off);
+    drawn.insert(key, made);
     return made;
 }
 
