@@ -60,8 +60,8 @@ namespace terrawalk {
 /// fetched.
 [[nodiscard]] std::string reportHtml(const SurveyReport& report);
 
-/// That page on paper: A4, all that it folds opened, drawings as vectors, fonts of the machine embedded. The same
-/// values on one machine give the same bytes. Errors: System.
+/// That page on paper: A4, all that it folds opened, drawings as vectors, fonts of the machine embedded. The
+/// same values on one machine give the same bytes. Errors: System.
 [[nodiscard]] Result<std::string> reportPdf(const SurveyReport& report);
 
 }  // namespace terrawalk

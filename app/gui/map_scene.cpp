@@ -115,20 +115,6 @@ void drawLabel(QPainter& painter, QPointF at, const QString& label, const QPalet
     painter.fillPath(path, palette.color(QPalette::Text));
 }
 
-void drawSymbol(QPainter& painter, QPointF at, const ControlMark& mark, bool highlighted) {
-    const double r = highlighted ? 7.0 : 5.0;
-    painter.setPen(QPen(Qt::white, 1.5));
-    painter.setBrush(QColor(20, 24, 28));
-    if (mark.name == kZeroMark) {
-        painter.drawRect(QRectF(at.x() - r, at.y() - r, 2 * r, 2 * r));
-    } else if (mark.role == MarkRole::Control) {
-        painter.drawPolygon(
-            QPolygonF({at + QPointF(0, -1.2 * r), at + QPointF(r, 0.8 * r), at + QPointF(-r, 0.8 * r)}));
-    } else {
-        painter.drawEllipse(at, 0.8 * r, 0.8 * r);
-    }
-}
-
 void drawVector(QPainter& painter, QPointF from, QPointF to) {
     const QPointF along = to - from;
     const double length = std::hypot(along.x(), along.y());
@@ -308,6 +294,21 @@ void drawTracks(QPainter& painter, const MapScene& scene, const MapTransform& tr
     }
 }
 
+void drawMarkSymbol(QPainter& painter, QPointF at, const ControlMark& mark, bool highlighted,
+                    const QColor& colour) {
+    const double r = highlighted ? 7.0 : 5.0;
+    painter.setPen(QPen(Qt::white, 1.5));
+    painter.setBrush(colour);
+    if (mark.name == kZeroMark) {
+        painter.drawRect(QRectF(at.x() - r, at.y() - r, 2 * r, 2 * r));
+    } else if (mark.role == MarkRole::Control) {
+        painter.drawPolygon(
+            QPolygonF({at + QPointF(0, -1.2 * r), at + QPointF(r, 0.8 * r), at + QPointF(-r, 0.8 * r)}));
+    } else {
+        painter.drawEllipse(at, 0.8 * r, 0.8 * r);
+    }
+}
+
 void drawMarks(QPainter& painter, const MapScene& scene, const MapTransform& transform,
                const QPalette& palette) {
     if (!scene.survey) return;
@@ -322,7 +323,7 @@ void drawMarks(QPainter& painter, const MapScene& scene, const MapTransform& tra
                 (*placed.array_map_m - placed.map_m.head<2>()) * (scale * transform.pixels_per_m);
             drawVector(painter, at, at + QPointF(off_px.x(), -off_px.y()));
         }
-        drawSymbol(painter, at, placed.mark, scene.highlighted == name);
+        drawMarkSymbol(painter, at, placed.mark, scene.highlighted == name, kMarkInk);
     }
     // Names last, and only where they do not lie on one another.
     QList<QRectF> taken;

@@ -78,6 +78,10 @@ struct TrackHit {
 [[nodiscard]] double vectorScale(const MapScene& scene, const MapTransform& transform);
 
 void drawTracks(QPainter& painter, const MapScene& scene, const MapTransform& transform);
+inline const QColor kMarkInk(20, 24, 28);
+/// Square, triangle or dot: zero mark, control or check.
+void drawMarkSymbol(QPainter& painter, QPointF at, const ControlMark& mark, bool highlighted,
+                    const QColor& colour);
 void drawMarks(QPainter& painter, const MapScene& scene, const MapTransform& transform,
                const QPalette& palette);
 void drawTerraceEdges(QPainter& painter, const MapScene& scene, const MapTransform& transform);

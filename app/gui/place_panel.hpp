@@ -20,9 +20,6 @@ class PlacePanel : public QFrame {
     void show(const PlaceReport& place);
     void clear();
 
-  Q_SIGNALS:
-    void sampleAsked(const QString& run, double time_s);
-
   protected:
     void resizeEvent(QResizeEvent* event) override;
 

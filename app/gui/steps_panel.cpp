@@ -141,7 +141,6 @@ QWidget* StepsPanel::buildFooter() {
     row->setSpacing(kGrid_px);
     process_ = new QPushButton(tr("Process"));
     process_->setObjectName("primary");
-    process_->setProperty("test_name", "process");
     process_->setToolTip(tr("Fuse, clean, make the surface and check it (F5)"));
     connect(process_, &QPushButton::clicked, &session_, &SurveySession::process);
     cancel_ = new QPushButton(tr("Cancel"));

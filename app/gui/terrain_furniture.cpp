@@ -115,20 +115,6 @@ bool hidden(const TerrainFrame& frame, const Eigen::Vector3d& scene_m) {
     return hit && (*hit - eye).norm() < way.norm() - slack_m;
 }
 
-void drawPinHead(QPainter& painter, QPointF at, const ControlMark& mark, bool highlighted) {
-    const double r = highlighted ? 7.0 : 5.0;
-    painter.setPen(QPen(Qt::white, 1.5));
-    painter.setBrush(highlighted ? selectedColour() : QColor(20, 24, 28));
-    if (mark.name == kZeroMark) {
-        painter.drawRect(QRectF(at.x() - r, at.y() - r, 2 * r, 2 * r));
-    } else if (mark.role == MarkRole::Control) {
-        painter.drawPolygon(
-            QPolygonF({at + QPointF(0, -1.2 * r), at + QPointF(r, 0.8 * r), at + QPointF(-r, 0.8 * r)}));
-    } else {
-        painter.drawEllipse(at, 0.8 * r, 0.8 * r);
-    }
-}
-
 void drawCompass(QPainter& painter, const TerrainFrame& frame, QPointF middle, const QPalette& palette) {
     const double r = kCompass_px / 2.0;
     drawPanel(painter, QRectF(middle.x() - r, middle.y() - r, 2 * r, 2 * r), palette);
@@ -200,7 +186,10 @@ void drawPins(QPainter& painter, const TerrainFrame& frame, const MapScene& map,
         painter.drawLine(*foot, head);
         painter.setPen(QPen(QColor(20, 24, 28), 1.4));
         painter.drawLine(*foot, head);
-        drawPinHead(painter, head, placed.mark, highlighted);
+        {
+            const bool selected = highlighted;
+            drawMarkSymbol(painter, head, placed.mark, selected, selected ? selectedColour() : kMarkInk);
+        }
         const QPointF label = head + QPointF(9, metrics.ascent() * 0.4);
         const QRectF box(label.x(), label.y() - metrics.ascent(), metrics.horizontalAdvance(name),
                          metrics.height());

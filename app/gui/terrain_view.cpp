@@ -22,7 +22,6 @@
 #include "app/gui/terrain_furniture.hpp"
 #include "app/gui/terrain_overlay.hpp"
 #include "app/gui/theme.hpp"
-#include "app/pipeline/ground_points_on_map.hpp"
 
 namespace terrawalk::gui {
 
@@ -206,23 +205,16 @@ void TerrainView::build() {
         update();
         return;
     }
-    // Points stay as long as the products do.
-    const auto points =
-        frame_.scene && &frame_.scene->products() == map_.products.get() ? points_map_m_ : nullptr;
-    watcher_.setFuture(
-        QtConcurrent::run([survey = survey_, products = map_.products, layer = layer_, points] {
-            Built built;
-            built.picture = std::make_shared<const RasterPicture>(rasterPicture(*products, layer));
-            built.scene = std::make_shared<const TerrainScene>(products, *built.picture);
-            built.points_map_m = points;
-            if (!points) {
-                auto places = groundPointsOnMap(*survey, *products, {});
-                // The pipeline has been through the same projection, so this is no news for anybody.
-                built.points_map_m = std::make_shared<const std::vector<Eigen::Vector3d>>(
-                    places ? std::move(*places) : std::vector<Eigen::Vector3d>());
-            }
-            return built;
-        }));
+    // The points of this surface, whatever is shown next.
+    const std::shared_ptr<const std::vector<Eigen::Vector3d>> points(map_.survey,
+                                                                     &map_.survey->ground_points_m);
+    watcher_.setFuture(QtConcurrent::run([products = map_.products, layer = layer_, points] {
+        Built built;
+        built.picture = std::make_shared<const RasterPicture>(rasterPicture(*products, layer));
+        built.scene = std::make_shared<const TerrainScene>(products, *built.picture);
+        built.points_map_m = points;
+        return built;
+    }));
     update();
 }
 

@@ -22,13 +22,13 @@ namespace terrawalk {
 
 /// Everything that one run of the pipeline makes, in memory.
 struct Products {
-    std::vector<Trajectory> trajectories;           ///< one for each run of the survey, in its order
+    std::vector<Trajectory> trajectories;  ///< one for each run of the survey, in its order
     std::vector<std::vector<SensorInnovations>> innovations;  ///< of each run, from methods that filter
-    std::vector<GroundPoint> ground_points;         ///< of all runs, run by run; local ENU
-    TriangleMesh surface;                           ///< map frame
-    ElevationGrid dem;                              ///< map frame
-    std::optional<SurfaceUncertainty> uncertainty;  ///< of the DEM, cell by cell
-    std::vector<TerraceEdge> terrace_edges;         ///< found in the points; map frame
+    std::vector<GroundPoint> ground_points;                   ///< of all runs, run by run; local ENU
+    TriangleMesh surface;                                     ///< map frame
+    ElevationGrid dem;                                        ///< map frame
+    std::optional<SurfaceUncertainty> uncertainty;            ///< of the DEM, cell by cell
+    std::vector<TerraceEdge> terrace_edges;                   ///< found in the points; map frame
     std::string crs_wkt2;
     SurveyReport report;
     PipelineConfig used;  ///< the configuration with every choice that the pipeline made filled in

@@ -39,7 +39,8 @@ TEST(Config, EveryParameterChangesItselfAndNothingElse) {
             const json after = json::parse(toJson(config)).flatten();
             if (after == before) continue;
             for (const auto& [key, value] : after.items()) {
-                EXPECT_TRUE(key.starts_with(pointer) || value == before.at(key)) << p.key << " also changed " << key;
+                EXPECT_TRUE(key.starts_with(pointer) || value == before.at(key))
+                    << p.key << " also changed " << key;
             }
             changed = true;
         }
@@ -81,6 +82,28 @@ TEST(Config, BrokenFilesNameFileAndLine) {
     EXPECT_THAT(error(deep + "1" + std::string(50000, '}')), HasSubstr("unknown parameter"));
     EXPECT_THAT(error("{\"seed\": " + std::string(50000, '[') + std::string(50000, ']') + "}"),
                 HasSubstr("seed"));
+}
+
+TEST(Config, EditsThatCannotBeAreRefusedAndChangeNothing) {
+    for (const char* bad : {
+             "edits.stretches={}",
+             R"(edits.stretches=["S01"])",
+             R"(edits.stretches=[{"run":"S01","from_s":1}])",
+             R"(edits.stretches=[{"run":"S01","from_s":3,"to_s":2}])",
+             R"(edits.stretches=[{"run":7,"from_s":1,"to_s":2}])",
+             R"(edits.stretches=[{"run":"S01","from_s":1,"to_s":2,"sensor":"sonar"}])",
+             R"(edits.marks=[7])",
+             R"(edits.lines=[{"vertices_m":[[1]]}])",
+             R"(edits.lines=[{"vertices_m":[[1,2,3,4]]}])",
+             R"(edits.lines=[{"vertices_m":[["1",2]]}])",
+             R"(edits.lines=[{"kind":"wall","vertices_m":[[1,2],[3,4]]}])",
+             R"(edits.lines=[{"kind":"hard"}])",
+             R"(edits.lines=[[[1,2],[3,4]]])",
+         }) {
+        PipelineConfig config;
+        EXPECT_FALSE(applySetting(config, bad)) << bad;
+        EXPECT_EQ(toJson(config), toJson(PipelineConfig{})) << bad;
+    }
 }
 
 TEST(Config, SettingsReportTellsRequestedFromUsed) {
