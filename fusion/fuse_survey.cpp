@@ -5,7 +5,11 @@
 
 #include <atomic>
 #include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
 
+#include "fusion/crossover_correction.hpp"
 #include "fusion/fuse_run.hpp"
 #include "fusion/joint_adjustment.hpp"
 
@@ -48,6 +52,30 @@ class SideBySide {
     double weight_ = 0.0;
 };
 
+void limit(FusedSurvey& fused, const std::string& sentence) {
+    for (FusedRun& run : fused.runs) run.notes.limitations.push_back(sentence);
+}
+
+// The quick second stage; the sigmas stay those of the filter.
+void correctTracks(const Survey& survey, std::vector<RunStart>& starts, const FusionOptions& options,
+                   const std::stop_token& stop, const std::string& why, FusedSurvey& fused) {
+    std::optional<CrossoverCorrection> correction;
+    if (options.joint.use_crossovers) correction = correctByCrossovers(survey, starts, options, stop);
+    for (std::size_t r = 0; r < starts.size(); ++r) {
+        Trajectory& track = fused.runs[r].trajectory = std::move(starts[r].trajectory);
+        if (!correction) continue;
+        for (std::size_t i = 0; i < track.epochs.size(); ++i) {
+            track.epochs[i].position_enu_m = correction->tracks_m[r][i];
+        }
+    }
+    limit(fused, correction ? fmt::format("{}: the tracks are those of the filter, bent so that {} pairs of "
+                                          "passes over the same ground agree ({:.3f} m RMS apart before, "
+                                          "{:.3f} m after); sigmas are the filter's",
+                                          why, correction->crossovers, correction->misfit_before_m,
+                                          correction->misfit_after_m)
+                            : why + ": the tracks are those of the filter, crossovers are not used");
+}
+
 Result<FusedSurvey> adjusted(const Survey& survey, std::vector<RunFusion> runs, const FusionOptions& options,
                              Progress& progress, std::stop_token stop) {
     FusedSurvey fused;
@@ -59,24 +87,28 @@ Result<FusedSurvey> adjusted(const Survey& survey, std::vector<RunFusion> runs, 
                           std::move(run.gnss_jump_m)});
         fused.runs.push_back(std::move(run.fused));
     }
+    if (options.joint.preview) {
+        correctTracks(survey, starts, options, stop, "a preview without the adjustment of all runs", fused);
+        if (stop.stop_requested()) return cancelled();
+        return fused;
+    }
     auto solution = adjustJointly(survey, starts, options, progress, stop);
     if (stop.stop_requested()) return cancelled();
-    for (std::size_t i = 0; i < survey.runs.size(); ++i) {
-        FusedRun& run = fused.runs[i];
-        run.trajectory = solution ? std::move(solution->trajectories[i]) : std::move(starts[i].trajectory);
-        if (solution && !solution->summary.settled) {
-            run.notes.limitations.push_back(fmt::format(
-                "the adjustment of all runs has not settled: the last of {} rounds moved a track by "
-                "{:.2f} m",
-                solution->summary.rounds, solution->summary.last_step_m));
-        }
-        if (!solution) {
-            run.notes.limitations.push_back(
-                "the adjustment of all runs has no solution: the tracks are those of the filter, crossovers "
-                "are not used");
-        }
+    if (!solution) {
+        correctTracks(survey, starts, options, stop, "the adjustment of all runs has no solution", fused);
+        if (stop.stop_requested()) return cancelled();
+        return fused;
     }
-    if (solution) fused.adjustment = std::move(solution->summary);
+    for (std::size_t i = 0; i < survey.runs.size(); ++i) {
+        fused.runs[i].trajectory = std::move(solution->trajectories[i]);
+    }
+    const AdjustmentSummary& summary = solution->summary;
+    if (!summary.settled) {
+        limit(fused, fmt::format("the adjustment of all runs has not settled: the last of {} rounds moved a "
+                                 "track by {:.2f} m",
+                                 summary.rounds, summary.last_step_m));
+    }
+    fused.adjustment = std::move(solution->summary);
     return fused;
 }
 

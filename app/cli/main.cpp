@@ -67,6 +67,7 @@ struct ProcessArguments {
     std::optional<std::string> method;
     std::optional<std::uint64_t> seed;
     bool multiband = false;
+    bool preview = false;
     bool tune = false;
     TuneOptions tuning;
 };
@@ -142,6 +143,9 @@ void addConfiguration(CLI::App& command, ProcessArguments& arguments,
         ->option_text(fmt::format("NAME [{}]", name(method)));
     command.add_option("--seed", arguments.seed, "Short for --set seed=...");
     command.add_flag("--multiband", arguments.multiband, "Short for --set surface.multiband=true");
+    command.add_flag("--preview", arguments.preview,
+                     "A quick look, without the adjustment of all runs: short for --set "
+                     "fusion.joint.preview=true");
 }
 
 // The file first, then single settings, so that the command line has the last word.
@@ -155,6 +159,7 @@ Result<PipelineConfig> configuration(const ProcessArguments& arguments) {
     if (arguments.method) settings.push_back("fusion.method=" + *arguments.method);
     if (arguments.seed) settings.push_back(fmt::format("seed={}", *arguments.seed));
     if (arguments.multiband) settings.emplace_back("surface.multiband=true");
+    if (arguments.preview) settings.emplace_back("fusion.joint.preview=true");
     for (const std::string& setting : settings) {
         if (auto done = applySetting(config, setting); !done) return tl::unexpected(done.error());
     }
@@ -173,6 +178,7 @@ Provenance provenanceOf(const std::string& command, const ProcessArguments& argu
     if (arguments.method) add("--method", *arguments.method);
     if (arguments.seed) add("--seed", std::to_string(*arguments.seed));
     if (arguments.multiband) provenance.command.emplace_back("--multiband");
+    if (arguments.preview) provenance.command.emplace_back("--preview");
     if (arguments.tune) {
         provenance.command.emplace_back("--tune");
         const std::vector<std::string> options = tuneArguments(arguments.tuning);

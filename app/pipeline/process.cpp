@@ -457,6 +457,10 @@ std::string methodName(const FusionOptions& options) {
     if (options.method == FusionMethod::Aukf) {
         return "9-state " + filterName(options.aukf.filter) + " as published (Xie et al. 2024), forward only";
     }
+    if (options.method == FusionMethod::Terrawalk && options.joint.preview) {
+        return "adaptive unscented Kalman filter with error states, then crossovers in a second stage (a "
+               "preview)";
+    }
     if (options.method == FusionMethod::Terrawalk) {
         return "adaptive unscented Kalman filter with error states, then joint adjustment of all runs with "
                "their crossovers";

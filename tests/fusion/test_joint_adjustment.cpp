@@ -189,6 +189,31 @@ TEST(JointAdjustment, CrossoversHalveTheHeightErrorOfABadDay) {
     EXPECT_LT(with_m2, 0.5 * without_m2);
 }
 
+TEST(CrossoverCorrection, APreviewBringsPassesTogetherAndKeepsTheFiltersSigmas) {
+    double preview_m2 = 0.0;
+    double without_m2 = 0.0;
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        SimulationOptions bad_day = smallField(seed);
+        bad_day.faults = FaultLevel::Severe;
+        const SimulatedSurvey simulated = simulatedSurvey(bad_day);
+        FusionOptions options;
+        options.joint.preview = true;
+        const FusedSurvey preview = fused(simulated.survey, options);
+        options.joint.use_crossovers = false;  // leaves the filter's tracks
+        const FusedSurvey without = fused(simulated.survey, options);
+        EXPECT_FALSE(preview.adjustment);
+        const std::size_t area = simulated.survey.runs.size() - 1;
+        for (std::size_t i = 0; i < preview.runs[area].trajectory.epochs.size(); i += 50) {
+            EXPECT_EQ(preview.runs[area].trajectory.epochs[i].covariance,
+                      without.runs[area].trajectory.epochs[i].covariance);
+        }
+        EXPECT_NE(preview.runs[area].notes.limitations.back().find("a preview"), std::string::npos);
+        preview_m2 += std::pow(rmsError(preview, simulated, area, true), 2);
+        without_m2 += std::pow(rmsError(without, simulated, area, true), 2);
+    }
+    EXPECT_LT(preview_m2, 0.6 * without_m2);
+}
+
 // Eight seconds of ranges cut short by a hand: false ground that crosses true ground.
 TEST(JointAdjustment, FalseGroundIsDownWeightedAndCounted) {
     SimulationOptions options = smallField(1);

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fusion/sparse_least_squares.hpp"
+
+namespace terrawalk {
+
+/// Rows of the joint adjustment by the cause of their noise.
+enum AdjustmentGroup : std::size_t {
+    kPrior,
+    kTieH,
+    kTieV,
+    kGnssH,  // of three kinds of fix each
+    kGnssV = kGnssH + 3,
+    kGnssWalkH = kGnssV + 3,
+    kGnssWalkV = kGnssWalkH + 3,
+    kDoppler = kGnssWalkV + 3,
+    kBarometer,
+    kBarometerDrift,
+    kGust,
+    kFlow,
+    kBridge,
+    kCompass,
+    kGyro,
+    kHeading,
+    kWalk,
+    kClimb,
+    kRoughness,
+    kBlindClimb,
+    kAccelerationH,
+    kAccelerationV,
+    kAccelerationBias,
+    kPair,
+    kMarkPass,
+    kGroupCount,
+};
+
+/// What the adjustment holds of each of them, in the order of AdjustmentGroup. Pure.
+/// @param robust  false: every residual counts by its square, as long as the track is far from its place
+[[nodiscard]] std::vector<RowGroup> adjustmentGroups(bool robust);
+
+}  // namespace terrawalk

@@ -1,0 +1,193 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fusion/adjustment_groups.hpp"
+#include "fusion/knot_intervals.hpp"
+#include "fusion/sensor_rows.hpp"
+
+namespace terrawalk {
+
+namespace {
+
+double squared(double x) {
+    return x * x;
+}
+
+}  // namespace
+
+void SensorRows::addFlow(const RunModel& run) {
+    if (!run.has_heading) return;
+    const LastingErrorOptions& lasting = options_.lasting;
+    const double iron = radians(lasting.hard_iron_run_sigma_deg);
+    system_.addRow(kPrior, {{run.iron.sin.unknown, 1.0}}, -run.iron.sin.value, iron);
+    system_.addRow(kPrior, {{run.iron.cos.unknown, 1.0}}, -run.iron.cos.value, iron);
+    system_.addRow(kPrior, {{run.scale.unknown, 1.0}}, -run.scale.value, lasting.flow_scale_sigma);
+    system_.addRow(kPrior, {{run.axes.unknown, 1.0}}, -run.axes.value, lasting.flow_axes_sigma);
+    if (!run.has_flow) return;
+    const FlowOptions& o = options_.flow;
+    Eigen::Vector2d residual = Eigen::Vector2d::Zero();
+    Eigen::Vector2d by_sin = residual, by_cos = residual, by_scale = residual, by_axes = residual;
+    std::array<Eigen::Vector2d, 3> by_knot{residual, residual, residual};
+    const KnotChain& turning = run.has_gyro ? run.turn : run.psi;
+    std::size_t first_knot = 0;
+    double covered_s = 0.0;
+    double bridged_s = 0.0;
+    double bridged_m = 0.0;
+    double variance = 0.0;
+    const double forward_scale = 1.0 + run.scale.value + run.axes.value;
+    const double left_scale = 1.0 + run.scale.value - run.axes.value;
+    overIntervals(
+        run, [&](std::size_t i) { return run.flow_mps[i].allFinite(); },
+        [&](std::size_t i, double from_s, double to_s) {
+            const double dt = to_s - from_s;
+            const double yaw = trueYaw(run, array_iron_, i);
+            const double c = std::cos(yaw);
+            const double s = std::sin(yaw);
+            const double f = run.flow_mps[i].x() / forward_scale;
+            const double l = run.flow_mps[i].y() / left_scale;
+            const Eigen::Vector2d v(c * f - s * l, s * f + c * l);
+            // What errors do is reckoned from the way of the track, once that is near: the noise of a
+            // reading in its own coefficients would make the flow's scale come out too large.
+            const Eigen::Vector2d tracked = (trackAt(run, to_s) - trackAt(run, from_s)).head<2>();
+            residual += dt * v - tracked;
+            const Eigen::Vector2d way = settled_ ? tracked : dt * v;
+            const Eigen::Vector2d turned(way.y(), -way.x());  // d way / d psi
+            const KnotChain::Place place = run.has_gyro ? run.turn_at[i] : run.psi_at[i];
+            if (covered_s == 0.0) first_knot = place.knot;
+            const std::size_t k = std::min<std::size_t>(place.knot - first_knot, 1);
+            by_knot[k] += (1.0 - place.fraction) * turned;
+            by_knot[k + 1] += place.fraction * turned;
+            by_sin += std::sin(run.yaw_rad[i]) * turned;
+            by_cos += std::cos(run.yaw_rad[i]) * turned;
+            const Eigen::Vector2d ahead(c, s);
+            const Eigen::Vector2d forward = ahead.dot(way) * ahead;
+            const Eigen::Vector2d left = way - forward;
+            by_scale -= forward / forward_scale + left / left_scale;
+            by_axes -= forward / forward_scale - left / left_scale;
+            covered_s += dt;
+            if (run.bridge_sigma_mps[i] > 0.0) {
+                bridged_s += dt;
+                bridged_m += dt * run.bridge_sigma_mps[i];
+                return;
+            }
+            variance += squared(dt) * flowVariance(o, std::hypot(f, l));
+        },
+        [&](std::size_t k, double interval_s) {
+            if (covered_s > 0.0) {
+                const double share = covered_s / interval_s;
+                const bool bridged = bridged_s > 0.2 * covered_s;
+                variance += squared(bridged_m);
+                for (std::size_t axis = 0; axis < 2; ++axis) {
+                    const auto a = static_cast<Eigen::Index>(axis);
+                    row_.clear();
+                    row_.add(run.correction.unknown(k + 1, axis), share);
+                    row_.add(run.correction.unknown(k, axis), -share);
+                    for (std::size_t j = 0; j < 3; ++j) {
+                        if (by_knot[j][a] != 0.0) row_.add(turning.unknown(first_knot + j), -by_knot[j][a]);
+                    }
+                    if (!run.has_gyro) {
+                        row_.add(run.iron.sin.unknown, -by_sin[a]);
+                        row_.add(run.iron.cos.unknown, -by_cos[a]);
+                        row_.add(array_iron_.sin.unknown, -by_sin[a]);
+                        row_.add(array_iron_.cos.unknown, -by_cos[a]);
+                    }
+                    row_.add(run.scale.unknown, -by_scale[a]);
+                    row_.add(run.axes.unknown, -by_axes[a]);
+                    system_.addRow(bridged ? kBridge : kFlow, row_.all(), residual[a],
+                                   std::max(std::sqrt(variance), 0.005));
+                }
+            }
+            residual.setZero();
+            by_sin = by_cos = by_scale = by_axes = residual;
+            by_knot = {residual, residual, residual};
+            covered_s = bridged_s = bridged_m = variance = 0.0;
+        });
+}
+
+// The compass error wanders; what the gyro saw of the turns tells how.
+void SensorRows::addHeading(const RunModel& run) {
+    if (!run.has_heading) return;
+    const LastingErrorOptions& lasting = options_.lasting;
+    addGaussMarkov(run.psi, 0, radians(lasting.heading_sigma_deg), lasting.heading_correlation_s, kCompass);
+    system_.addRow(kPrior, {{run.gyro_bias.unknown, 1.0}}, -run.gyro_bias.value,
+                   radians(lasting.gyro_bias_sigma_dps));
+    if (run.has_gyro) addGyro(run);
+}
+
+void SensorRows::addGyro(const RunModel& run) {
+    const double walk = radians(options_.lasting.gyro_walk_deg_per_sqrt_s);
+    std::vector<double> doubt_rad2(run.turn.knots(), 0.0);
+    for (std::size_t i = 0; i < run.size(); ++i) {
+        doubt_rad2[std::min(run.turn_at[i].knot + 1, run.turn.knots() - 1)] += run.base_doubt_rad2[i];
+    }
+    system_.addRow(kPrior, {{run.turn.unknown(0), 1.0}}, -run.turn.knotValue(0), 1.0);
+    for (std::size_t k = 1; k < run.turn.knots(); ++k) {
+        const double dt = run.turn.time(k) - run.turn.time(k - 1);
+        system_.addRow(
+            kGyro,
+            {{run.turn.unknown(k), 1.0}, {run.turn.unknown(k - 1), -1.0}, {run.gyro_bias.unknown, -dt}},
+            run.turn.knotValue(k - 1) - run.turn.knotValue(k) + run.gyro_bias.value * dt,
+            std::sqrt(squared(walk) * dt + doubt_rad2[k]));
+    }
+    addCompass(run);
+}
+
+// Compass against summed gyro, one row for the mean over each knot interval.
+void SensorRows::addCompass(const RunModel& run) {
+    constexpr double kSteady_rad = radians(0.15);  // of the mean: what does not average out
+    const double white = compassNoise_rad(options_.attitude);
+    std::array<double, 2> turn{}, psi{};
+    double n = 0.0, sine = 0.0, cosine = 0.0, residual = 0.0;
+    std::size_t psi_first = 0;
+    for (std::size_t i = 0; i <= run.size(); ++i) {
+        const std::size_t interval = i == run.size() ? run.turn.knots() : run.turn_at[i].knot;
+        if (n > 0.0 && interval != turn_interval_) {
+            row_.clear();
+            for (std::size_t j = 0; j < 2; ++j) {
+                if (turn[j] != 0.0) row_.add(run.turn.unknown(turn_interval_ + j), -turn[j] / n);
+                if (psi[j] != 0.0) row_.add(run.psi.unknown(psi_first + j), psi[j] / n);
+            }
+            row_.add(run.iron.sin.unknown, sine / n);
+            row_.add(array_iron_.sin.unknown, sine / n);
+            row_.add(run.iron.cos.unknown, cosine / n);
+            row_.add(array_iron_.cos.unknown, cosine / n);
+            system_.addRow(kHeading, row_.all(), residual / n, std::hypot(white / std::sqrt(n), kSteady_rad));
+            turn = psi = {};
+            n = sine = cosine = residual = 0.0;
+        }
+        if (i == run.size()) break;
+        turn_interval_ = interval;
+        if (!present(run.log->value(Channel::Heading, i))) continue;
+        if (n == 0.0) psi_first = run.psi_at[i].knot;
+        const double yaw = run.yaw_rad[i];
+        turn[0] += 1.0 - run.turn_at[i].fraction;
+        turn[1] += run.turn_at[i].fraction;
+        psi[0] += 1.0 - run.psi_at[i].fraction;
+        psi[1] += run.psi_at[i].fraction;
+        sine += std::sin(yaw);
+        cosine += std::cos(yaw);
+        residual += wrapAngle(yaw - trueYaw(run, array_iron_, i) - run.psi.value(run.psi_at[i]) -
+                              (array_iron_.sin.value + run.iron.sin.value) * std::sin(yaw) -
+                              (array_iron_.cos.value + run.iron.cos.value) * std::cos(yaw));
+        n += 1.0;
+    }
+}
+
+// Adds to the row what errors of the heading at a time do to a reading: `change` for each radian.
+void SensorRows::turnedBy(const RunModel& run, double time_s, double change) {
+    if (run.has_gyro) {
+        run.turn.addTo(row_, run.turn.locate(time_s), -change);
+        return;
+    }
+    run.psi.addTo(row_, run.psi.locate(time_s), -change);
+    const auto& times = run.log->time_s;
+    const auto next = std::lower_bound(times.begin(), times.end() - 1, time_s);
+    const double yaw = run.yaw_rad[static_cast<std::size_t>(next - times.begin())];
+    row_.add(run.iron.sin.unknown, -change * std::sin(yaw));
+    row_.add(run.iron.cos.unknown, -change * std::cos(yaw));
+    row_.add(array_iron_.sin.unknown, -change * std::sin(yaw));
+    row_.add(array_iron_.cos.unknown, -change * std::cos(yaw));
+}
+
+}  // namespace terrawalk

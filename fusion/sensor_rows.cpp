@@ -1,0 +1,27 @@
+#include "fusion/sensor_rows.hpp"
+
+#include "fusion/adjustment_groups.hpp"
+
+namespace terrawalk {
+
+void SensorRows::addArray() {
+    const double iron = radians(options_.lasting.hard_iron_sigma_deg);
+    for (const SingleUnknown* part : {&array_iron_.sin, &array_iron_.cos}) {
+        system_.addRow(kPrior, {{part->unknown, 1.0}}, -part->value, iron);
+    }
+}
+
+void SensorRows::addRun(RunModel& run) {
+    addStart(run);
+    addTies(run);
+    addGnss(run);
+    addDoppler(run);
+    addBarometer(run);
+    addFlow(run);
+    addHeading(run);
+    addWalk(run);
+    addClimb(run);
+    addAcceleration(run);
+}
+
+}  // namespace terrawalk
