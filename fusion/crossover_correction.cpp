@@ -28,10 +28,11 @@ class CrossoverCorrector {
                        const std::stop_token& stop)
         : options_(options), stop_(stop), crossovers_(survey, options_, runs_, array_iron_) {
         options_.joint.knot_s = kKnot_s;
-        options_.accelerometer.use = false;  // is asked for nothing here
+        options_.accelerometer.use = false;  // has no part here
         const LocalFrame frame = survey.frame();
         for (const RunStart& start : starts) runs_.push_back(makeRunModel(start, frame, options_));
         for (RunModel& run : runs_) {
+            takeFiltersYaw(run);
             numberTrack(run, unknowns_);
             takeFilterVariances(run);
         }
@@ -69,6 +70,14 @@ class CrossoverCorrector {
         const auto& times = run.log->time_s;
         const auto at = std::lower_bound(times.begin(), times.end(), run.correction.time(knot));
         return std::min(static_cast<std::size_t>(at - times.begin()), run.size() - 1);
+    }
+
+    // The compass is not corrected any further.
+    static void takeFiltersYaw(RunModel& run) {
+        run.has_heading = false;
+        for (std::size_t i = 0; i < run.size(); ++i) {
+            run.yaw_rad[i] = run.start->trajectory.epochs[i].attitude.yaw_rad;
+        }
     }
 
     static void takeFilterVariances(RunModel& run) {
