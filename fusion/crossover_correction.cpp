@@ -1,6 +1,7 @@
 #include "fusion/crossover_correction.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "fusion/adjustment_groups.hpp"
@@ -14,7 +15,8 @@ namespace terrawalk {
 
 namespace {
 
-constexpr int kRounds = 5;
+// Sigmas of pairs, round by round: misfits are large before the tracks are bent, and no outliers for that.
+constexpr std::array kPairScales{5.0, 3.0, 2.0, 1.5, 1.0};
 constexpr double kKnot_s = 3.0;
 constexpr double kWander_m = 0.03;     // of a correction in a second, in plan
 constexpr double kWanderUp_m = 0.025;  // and in height
@@ -40,11 +42,13 @@ class CrossoverCorrector {
 
     std::optional<CrossoverCorrection> correct() {
         CrossoverCorrection result;
-        for (int round = 0; round < kRounds; ++round) {
+        std::vector<RowGroup> groups = adjustmentGroups(true);
+        for (std::size_t round = 0; round < kPairScales.size(); ++round) {
             if (stop_.stop_requested()) return std::nullopt;
             crossovers_.find();
             if (round == 0) result.misfit_before_m = rootMeanSquareMisfit(crossovers_.pairs());
-            SparseLeastSquares system(unknowns_, adjustmentGroups(true), stop_);
+            groups[kPair].scale = groups[kMarkPass].scale = kPairScales[round];
+            SparseLeastSquares system(unknowns_, groups, stop_);
             SensorRows sensors(options_, array_iron_, true, system);
             for (RunModel& run : runs_) {
                 sensors.addTies(run);

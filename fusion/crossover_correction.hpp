@@ -21,8 +21,9 @@ struct CrossoverCorrection {
 };
 
 /// The quick second stage: the filter's tracks are bent, as little as may be, until passes over the same
-/// ground agree. Seconds of the joint adjustment become tenths, and its answer is nearly as good, but it has
-/// no sigmas of its own: those of a second stage are far too small, so the filter's stay.
+/// ground agree. It takes tenths of a second where the joint adjustment takes seconds, and its answer lies
+/// between those of the filter and of the adjustment: the plan stays as it was. It has no sigmas of its own:
+/// those of a second stage are far too small, so the filter's stay.
 ///
 ///     pair    du_A - g.dp_A - du_B + g.dp_B = -misfit
 ///     change  a correction wanders little from one second to the next

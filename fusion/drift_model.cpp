@@ -274,13 +274,21 @@ RowTest DriftModel::test(std::size_t epoch, const Reading& reading, std::size_t 
     return {innovation(state_, tested), std::sqrt(innovationVariance(state_, tested))};
 }
 
+// By which the GNSS stands off there [m].
+double DriftModel::jumpOf(std::size_t epoch, const Reading& reading) const {
+    const bool of_gnss = reading.sensor == Sensor::GnssPosition || reading.sensor == Sensor::GnssHeight;
+    return of_gnss ? gnss_jump_m_[epoch] : 0.0;
+}
+
+bool DriftModel::doubts(std::size_t epoch, const Reading& reading) const {
+    return jumpOf(epoch, reading) > 0.0;
+}
+
 void DriftModel::update(std::size_t epoch, const Reading& reading, std::size_t r, double excess) {
     DriftRow taken = row(epoch, reading, r);
-    const bool of_gnss = reading.sensor == Sensor::GnssPosition || reading.sensor == Sensor::GnssHeight;
-    const double jump_m = of_gnss ? gnss_jump_m_[epoch] : 0.0;
-    const bool telling = reading.sensor != Sensor::MeanFlow && jump_m == 0.0;
+    const bool telling = reading.sensor != Sensor::MeanFlow && !doubts(epoch, reading);
     if (context_.options.drift.adapt && telling) adapt(epoch, reading, taken);
-    taken.variance = taken.variance * excess + squared(jump_m);
+    taken.variance = taken.variance * excess + squared(jumpOf(epoch, reading));
     state_ = updated(state_, taken);
 }
 

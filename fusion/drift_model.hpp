@@ -87,6 +87,7 @@ class DriftModel final : public FilterModel {
     [[nodiscard]] bool finite() const override;
     [[nodiscard]] RowTest test(std::size_t epoch, const Reading& reading, std::size_t row) const override;
     void update(std::size_t epoch, const Reading& reading, std::size_t row, double excess) override;
+    [[nodiscard]] bool doubts(std::size_t epoch, const Reading& reading) const override;
     void assume(const LinearRow& row) override;
     void holdHeight() override;
     void readmit(std::size_t epoch, const Reading& reading) override;
@@ -113,6 +114,7 @@ class DriftModel final : public FilterModel {
     GnssErrorStep gnssStep(std::size_t epoch);
     bool heightIsTold() const;
     DriftRow row(std::size_t epoch, const Reading& reading, std::size_t r) const;
+    double jumpOf(std::size_t epoch, const Reading& reading) const;
     void adapt(std::size_t epoch, const Reading& reading, const DriftRow& row);
 
     const ReadingContext& context_;

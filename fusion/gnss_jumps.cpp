@@ -4,15 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace terrawalk {
 namespace {
 
 constexpr double kLongestStep_s = 1.0;  // a walker may be anywhere after a longer gap
 constexpr std::size_t kSide = 3;        // steps on either side that say how the walker goes
-constexpr double kGait_m = 0.15;        // by which gait alone makes a step differ
+constexpr double kGait_m = 0.12;        // by which gait alone makes a step differ
 constexpr double kNoiseSigmas = 5.0;
 constexpr double kUsualSteps = 5.0;  // over the median of such differences, where noise is worse than stated
+// A jump that comes back does so in the opposite direction, up to a share of its size. The way back may be
+// half as odd as a jump has to be; a jump without it has to be twice as odd, or it was the gait.
+constexpr double kOpposite = 0.5;
+constexpr double kWayBack_s = 30.0;
 
 double medianOf(std::vector<double>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -26,8 +31,8 @@ bool follows(const GnssReading& before, const GnssReading& after) {
 
 // By how much each step differs from how the walker goes; step i leads to reading i. Zero where none is
 // known.
-std::vector<double> oddSteps(std::span<const GnssReading> readings) {
-    std::vector<double> odd_m(readings.size(), 0.0);
+std::vector<Eigen::Vector2d> oddSteps(std::span<const GnssReading> readings) {
+    std::vector<Eigen::Vector2d> odd_m(readings.size(), Eigen::Vector2d::Zero());
     std::vector<double> east, north;
     for (std::size_t i = 1; i < readings.size(); ++i) {
         if (!follows(readings[i - 1], readings[i])) continue;
@@ -44,55 +49,123 @@ std::vector<double> oddSteps(std::span<const GnssReading> readings) {
         if (east.size() < kSide) continue;
         const Eigen::Vector2d usual(medianOf(east), medianOf(north));
         const double dt = readings[i].time_s - readings[i - 1].time_s;
-        odd_m[i] = (readings[i].en_m - readings[i - 1].en_m - usual * dt).norm();
+        odd_m[i] = readings[i].en_m - readings[i - 1].en_m - usual * dt;
     }
     return odd_m;
 }
 
 // Of the readings whose kind of fix is the same.
-double usualOddStep(std::span<const GnssReading> readings, const std::vector<double>& odd_m,
+double usualOddStep(std::span<const GnssReading> readings, const std::vector<Eigen::Vector2d>& odd_m,
                     std::size_t fix_class) {
     std::vector<double> values;
     for (std::size_t i = 0; i < readings.size(); ++i) {
-        if (readings[i].fix_class == fix_class && odd_m[i] > 0.0) values.push_back(odd_m[i]);
+        if (readings[i].fix_class == fix_class && !odd_m[i].isZero(0.0)) values.push_back(odd_m[i].norm());
     }
     return values.empty() ? 0.0 : medianOf(values);
 }
 
-struct Piece {
-    std::size_t from = 0;
-    std::size_t end = 0;
-    double jump_before_m = 0.0;  // zero where the piece begins without one
-};
-
-}  // namespace
-
-std::vector<double> gnssJumps(std::span<const GnssReading> readings) {
-    const std::vector<double> odd_m = oddSteps(readings);
+// How odd a step of each reading must be for a jump.
+std::vector<double> jumpSizes(std::span<const GnssReading> readings,
+                              const std::vector<Eigen::Vector2d>& odd_m) {
     std::vector<double> usual_m;
-    std::vector<Piece> pieces;
+    std::vector<double> least_m;
     for (std::size_t i = 0; i < readings.size(); ++i) {
         const std::size_t fix_class = readings[i].fix_class;
         while (usual_m.size() <= fix_class) {
             usual_m.push_back(usualOddStep(readings, odd_m, usual_m.size()));
         }
         const double noise_m = std::hypot(readings[i].white_m, i > 0 ? readings[i - 1].white_m : 0.0);
-        const bool jump =
-            odd_m[i] > std::max({kGait_m, kNoiseSigmas * noise_m, kUsualSteps * usual_m[fix_class]});
-        const bool begins = i == 0 || readings[i - 1].fix_class != fix_class;
-        if (begins || jump) pieces.push_back({i, i, jump ? odd_m[i] : 0.0});
-        pieces.back().end = i + 1;
+        least_m.push_back(std::max({kGait_m, kNoiseSigmas * noise_m, kUsualSteps * usual_m[fix_class]}));
     }
-    const auto length = [](const Piece& p) {
-        return p.end - p.from;
+    return least_m;
+}
+
+// The step near a jump that undoes it best, if any does.
+std::optional<std::size_t> wayBack(std::span<const GnssReading> readings,
+                                   const std::vector<Eigen::Vector2d>& odd_m, double least_m,
+                                   std::size_t jump) {
+    std::optional<std::size_t> best;
+    double left_m = kOpposite * odd_m[jump].norm();
+    const auto look = [&](std::size_t i) {
+        const double rest_m = (odd_m[i] + odd_m[jump]).norm();
+        const bool same_fix = readings[i].fix_class == readings[jump].fix_class;
+        if (!same_fix || odd_m[i].norm() <= 0.5 * least_m || rest_m > left_m) return;
+        left_m = rest_m;
+        best = i;
     };
-    std::vector<double> doubted_m(readings.size(), 0.0);
-    for (std::size_t p = 1; p < pieces.size(); ++p) {
-        if (pieces[p].jump_before_m == 0.0) continue;
-        const Piece& shorter = length(pieces[p]) <= length(pieces[p - 1]) ? pieces[p] : pieces[p - 1];
-        for (std::size_t i = shorter.from; i < shorter.end; ++i) {
-            doubted_m[i] = std::max(doubted_m[i], pieces[p].jump_before_m);
+    const auto near = [&](std::size_t i) {
+        return std::abs(readings[i].time_s - readings[jump].time_s) <= kWayBack_s;
+    };
+    for (std::size_t i = jump + 1; i < readings.size() && near(i); ++i) look(i);
+    for (std::size_t i = jump; i-- > 0 && near(i);) look(i);
+    return best;
+}
+
+// The jump that leads to each reading; zero where none does.
+std::vector<Eigen::Vector2d> jumpsBefore(std::span<const GnssReading> readings) {
+    const std::vector<Eigen::Vector2d> odd_m = oddSteps(readings);
+    const std::vector<double> least_m = jumpSizes(readings, odd_m);
+    std::vector<Eigen::Vector2d> jump_m(readings.size(), Eigen::Vector2d::Zero());
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        const double size_m = odd_m[i].norm();
+        if (size_m <= least_m[i]) continue;
+        const auto back = wayBack(readings, odd_m, least_m[i], i);
+        if (!back && size_m <= 2.0 * least_m[i]) continue;
+        jump_m[i] = odd_m[i];
+        if (back) jump_m[*back] = odd_m[*back];
+    }
+    return jump_m;
+}
+
+// Where readings lie that no jump parts: by so much off from those before the first jump.
+struct Level {
+    Eigen::Vector2d off_m = Eigen::Vector2d::Zero();
+    std::size_t readings = 0;
+};
+
+// Readings [from, end) have one kind of fix. The level that most of them are on is right.
+void doubtStretches(std::span<const Eigen::Vector2d> jump_m, std::size_t from, std::size_t end,
+                    std::vector<double>& doubted_m) {
+    std::vector<Level> levels{{}};
+    std::vector<std::size_t> level_of;
+    std::size_t level = 0;
+    for (std::size_t i = from; i < end; ++i) {
+        if (i > from && !jump_m[i].isZero(0.0)) {
+            const Eigen::Vector2d off_m = levels[level].off_m + jump_m[i];
+            const auto away = [&](const Level& other) {
+                return (other.off_m - off_m).norm();
+            };
+            // One that was there before, if it is near: so errors of single jumps do not sum up.
+            const auto nearest =
+                std::min_element(levels.begin(), levels.end(),
+                                 [&](const Level& a, const Level& b) { return away(a) < away(b); });
+            if (away(*nearest) <= kOpposite * jump_m[i].norm()) {
+                level = static_cast<std::size_t>(nearest - levels.begin());
+            } else {
+                level = levels.size();
+                levels.push_back({off_m, 0});
+            }
         }
+        ++levels[level].readings;
+        level_of.push_back(level);
+    }
+    const auto right = std::max_element(
+        levels.begin(), levels.end(), [](const Level& a, const Level& b) { return a.readings < b.readings; });
+    for (std::size_t i = from; i < end; ++i) {
+        doubted_m[i] = (levels[level_of[i - from]].off_m - right->off_m).norm();
+    }
+}
+
+}  // namespace
+
+std::vector<double> gnssJumps(std::span<const GnssReading> readings) {
+    const std::vector<Eigen::Vector2d> jump_m = jumpsBefore(readings);
+    std::vector<double> doubted_m(readings.size(), 0.0);
+    for (std::size_t from = 0; from < readings.size();) {
+        std::size_t end = from + 1;
+        while (end < readings.size() && readings[end].fix_class == readings[from].fix_class) ++end;
+        doubtStretches(jump_m, from, end, doubted_m);
+        from = end;
     }
     return doubted_m;
 }

@@ -22,11 +22,13 @@ struct GnssReading {
 /// Stretches whose positions stand off from those around them: a wrong fix, a reflected signal.
 ///
 /// A jump is a step between successive positions that no walker makes: it differs from the median of the
-/// steps around it by more than noise and gait explain. Of the two pieces that a jump parts, the shorter one
-/// is doubted, for an error that comes and goes is shorter than the time without it. Where a receiver is
-/// wrong for most of a run, the wrong half is doubted; no method that sees positions alone knows better.
+/// steps around it by more than noise and gait explain. Most come back by a step against their direction,
+/// which may be smaller; one that does not must be twice as large to count. Jumps part levels, and that of
+/// the most readings with one kind of fix is right: errors come and go, and the truth stays where it is.
+/// Where a receiver is wrong in the same way for most of the time, the wrong level is doubted; no method that
+/// sees positions alone knows better.
 /// @param readings  of one run, ordered by time
-/// @return for each reading zero, or the size [m] of the jump that set its piece off
+/// @return for each reading zero, or by how much [m] its level is off
 [[nodiscard]] std::vector<double> gnssJumps(std::span<const GnssReading> readings);
 
 /// The same for each epoch of a log; zero where an epoch has no position that may be used.

@@ -127,7 +127,7 @@ void RunFilter::applyReading(std::size_t epoch, const Reading& reading) {
         ledger_.reject(reading.sensor, "beyond gate");
         return;
     }
-    bool down_weighted = false;
+    bool down_weighted = model_.doubts(epoch, reading);
     double nis = 0.0;
     for (std::size_t r = 0; r < reading.row_count; ++r) {
         double excess = 1.0;

@@ -35,6 +35,11 @@ class FilterModel {
     [[nodiscard]] virtual RowTest test(std::size_t epoch, const Reading& reading, std::size_t row) const = 0;
     /// Takes one row, its variance multiplied by `excess`.
     virtual void update(std::size_t epoch, const Reading& reading, std::size_t row, double excess) = 0;
+    /// Whether update() takes the reading with more noise than its sensor has, for a reason of the model's
+    /// own.
+    [[nodiscard]] virtual bool doubts(std::size_t /*epoch*/, const Reading& /*reading*/) const {
+        return false;
+    }
     /// Takes a row of position or velocity that no sensor gave: a mark, or how people walk.
     virtual void assume(const LinearRow& row) = 0;
     /// Keeps the height near that of the start where nothing measures it.

@@ -55,6 +55,30 @@ TEST(GnssJumps, TheShorterSideOfASingleJumpIsDoubted) {
     expectDoubted(readings, 0, 50);
 }
 
+// Otherwise all that follows would be doubted, up to the next jump.
+TEST(GnssJumps, AWayBackMayBeFainterThanTheJump) {
+    std::vector<GnssReading> readings = walk(0.001);
+    for (int i = 60; i < 90; ++i) readings[static_cast<std::size_t>(i)].en_m.y() += 0.3 - 0.0028 * (i - 60);
+    expectDoubted(readings, 60, 90);
+}
+
+// Two wrong fixes, and little between them.
+TEST(GnssJumps, AShortReturnBetweenTwoStretchesIsRight) {
+    std::vector<GnssReading> readings = walk();
+    shift(readings, 60, 90, 0.6);
+    shift(readings, 96, 130, -0.5);
+    const std::vector<double> jumps = gnssJumps(readings);
+    for (std::size_t i = 0; i < jumps.size(); ++i) {
+        EXPECT_EQ(jumps[i] > 0.0, (i >= 60 && i < 90) || (i >= 96 && i < 130)) << i;
+    }
+}
+
+TEST(GnssJumps, ASmallStepThatDoesNotComeBackIsGait) {
+    std::vector<GnssReading> readings = walk(0.001);
+    shift(readings, 60, readings.size(), 0.2);
+    expectDoubted(readings, 0, 0);
+}
+
 TEST(GnssJumps, ASingleOutlierIsDoubtedAlone) {
     std::vector<GnssReading> readings = walk();
     shift(readings, 100, 101, 3.0);

@@ -211,7 +211,7 @@ TEST(CrossoverCorrection, APreviewBringsPassesTogetherAndKeepsTheFiltersSigmas) 
         preview_m2 += std::pow(rmsError(preview, simulated, area, true), 2);
         without_m2 += std::pow(rmsError(without, simulated, area, true), 2);
     }
-    EXPECT_LT(preview_m2, 0.6 * without_m2);
+    EXPECT_LT(preview_m2, 0.9 * without_m2);
 }
 
 // Eight seconds of ranges cut short by a hand: false ground that crosses true ground.
@@ -318,6 +318,11 @@ TEST(JointAdjustment, AWrongRtkFixOfFiveSecondsDoesNotMoveTheTrack) {
     EXPECT_TRUE(std::any_of(run.notes.details.begin(), run.notes.details.end(), [](const std::string& note) {
         return note.find("GNSS stands off by up to 0.5") != std::string::npos;
     }));
+    const auto gnss = std::find_if(run.sensors.begin(), run.sensors.end(),
+                                   [](const SensorUse& use) { return use.sensor == "GNSS position"; });
+    ASSERT_NE(gnss, run.sensors.end());
+    // Some of them the filter drops, the others count for less.
+    EXPECT_GE(gnss->down_weighted + gnss->offered - gnss->used, kEnd - kFrom - 2);
 }
 
 }  // namespace
