@@ -46,31 +46,6 @@ std::optional<std::size_t> findOffLine(const std::vector<Eigen::Vector3d>& point
     return std::nullopt;
 }
 
-/// From its lowest index on.
-Triangle fromLowest(const Triangle& t) {
-    const auto [a, b, c] = t;
-    if (a < b && a < c) return t;
-    return b < c ? Triangle{b, c, a} : Triangle{c, a, b};
-}
-
-/// Each from its lowest index on, in rising order.
-std::vector<Triangle> inRisingOrder(const std::vector<Triangle>& triangles, std::size_t vertex_count) {
-    std::vector<std::uint32_t> ends(vertex_count, 0);  // at first the begins, then moved on
-    for (const Triangle& triangle : triangles) ++ends[std::min({triangle[0], triangle[1], triangle[2]})];
-    std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), std::uint32_t{0});
-    std::vector<Triangle> ordered(triangles.size());
-    for (const Triangle& triangle : triangles) {
-        const Triangle turned = fromLowest(triangle);
-        ordered[ends[turned[0]]++] = turned;
-    }
-    std::uint32_t begin = 0;
-    for (const std::uint32_t end : ends) {
-        std::sort(ordered.data() + begin, ordered.data() + end);
-        begin = end;
-    }
-    return ordered;
-}
-
 std::vector<TriangleExtent> extents(const TriangleMesh& mesh) {
     std::vector<TriangleExtent> result(mesh.triangles.size());
     for (std::size_t t = 0; t < result.size(); ++t) {
@@ -147,11 +122,11 @@ Result<TriangleMesh> delaunayMesh(const std::vector<Eigen::Vector3d>& points_m, 
         return badData(fmt::format("all {} ground points lie on one straight line", mesh.vertices_m.size()),
                        {}, 0, kCure);
     }
-    const auto triangles = delaunayTriangles(mesh.vertices_m, *off_line, progress, stop);
+    auto triangles = delaunayTriangles(mesh.vertices_m, *off_line, progress, stop);
     if (!triangles) {
         return tl::unexpected(triangles.error());
     }
-    mesh.triangles = inRisingOrder(*triangles, mesh.vertices_m.size());
+    mesh.triangles = std::move(*triangles);
     return mesh;
 }
 
