@@ -165,11 +165,12 @@ class Faces {
     }
 
     /// Finite faces, each from its lowest vertex on, in rising order.
-    [[nodiscard]] std::vector<Triangle> inRisingOrder() const {
+    [[nodiscard]] std::vector<Triangle> inRisingOrder() && {
         const auto lowest = [](const Triangle& t) {
             return std::min({t[0], t[1], t[2]});
         };
-        std::vector<Index> ends(places_.size() + 1, 0);  // at first the begins, then moved on
+        std::vector<Index> ends(places_.size(), 0);  // at first the begins, then moved on
+        places_ = {};                                // makes room
         std::size_t finite = 0;
         for (const Face& face : faces_) {
             if (isInfinite(face.vertices)) continue;
@@ -277,7 +278,7 @@ Result<std::vector<Triangle>> delaunayTriangles(const std::vector<Eigen::Vector3
         }
         if (std::find(first.begin(), first.end(), point) == first.end()) faces.insert(point);
     }
-    return faces.inRisingOrder();
+    return std::move(faces).inRisingOrder();
 }
 
 }  // namespace terrawalk
