@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/point_readers.hpp"
+#include "io/short_decimal.hpp"
 #include "io/text_input.hpp"
 
 namespace terrawalk {
@@ -23,6 +24,10 @@ class PointTableParser {
     Result<void> take(const LineBlock& block) {
         for (const char* at = block.begin; at != block.end;) {
             ++line_;
+            if (const char* const next = takePlainLine(at, block.end); next != nullptr) {
+                at = next;
+                continue;
+            }
             const char* const line_end = findLineEnd(at, block.end);
             const std::string_view line = trimmed({at, static_cast<std::size_t>(line_end - at)});
             at = afterLineEnd(line_end, block.end);
@@ -51,6 +56,38 @@ class PointTableParser {
             static_cast<std::size_t>(1.01 * blocks * static_cast<double>(points_.points.size()));
         points_.points.reserve(expected);
         if (place_[3]) points_.sigmas.reserve(expected);
+    }
+
+    /// Nearly all lines are of one form: no blanks, no quotation marks, short decimals. Takes such a line and
+    /// returns where the next one begins; null when the line is of another form, which takeLine() looks at.
+    const char* takePlainLine(const char* at, const char* end) {
+        if (roles_.empty() || *at == '#' || *at == ' ' || *at == '\t') return nullptr;
+        std::array<double, 4> numbers{};
+        for (std::size_t field = 0; field < roles_.size(); ++field) {
+            if (field > 0 && *at++ != separator_) return nullptr;
+            if (roles_[field] != kNoRole) {
+                at = readShortDecimal(at, numbers[roles_[field]]);
+                if (at == nullptr) return nullptr;
+            } else {
+                at = std::find_if(at, end,
+                                  [this](char c) { return c == separator_ || c == '\n' || c == '\r'; });
+                if (at == end) return nullptr;
+            }
+        }
+        if (*at != separator_ && *at != '\n' && *at != '\r') return nullptr;
+        if (numbers[3] < 0.0) return nullptr;
+        points_.points.emplace_back(numbers[0], numbers[1], numbers[2]);
+        if (place_[3]) points_.sigmas.push_back(numbers[3]);
+        return afterLineEnd(findLineEnd(at, end), end);
+    }
+
+    /// What takePlainLine() looks for, column by column.
+    void setRoles() {
+        if (separator_ == ' ') return;
+        roles_.assign(fields_wanted_, kNoRole);
+        for (std::size_t k = 0; k < place_.size(); ++k) {
+            if (place_[k]) roles_[*place_[k]] = k;
+        }
     }
 
     Result<void> takeLine(std::string_view line) {
@@ -90,6 +127,7 @@ class PointTableParser {
             fields_wanted_ = 3;
             points_.notes.emplace_back(
                 "the table has no header: its first three columns are taken for x, y and z");
+            setRoles();
             return {};
         }
         has_header_ = true;
@@ -110,6 +148,7 @@ class PointTableParser {
             if (named->unit) points_.unit = named->unit;
         }
         if (!place_[0] || !place_[1] || !place_[2]) return bad("the header names no x, y and z", kHeaderCure);
+        setRoles();
         return {};
     }
 
@@ -133,6 +172,8 @@ class PointTableParser {
     bool room_made_ = false;
     ScatteredPoints points_;
     std::array<std::optional<std::size_t>, 4> place_{};  ///< by PointColumn
+    static constexpr std::size_t kNoRole = 4;
+    std::vector<std::size_t> roles_;  ///< by column, as far as one is needed: which number, or none
     std::vector<std::string_view> fields_;
     std::size_t fields_wanted_ = 0;
     std::size_t line_ = 0;

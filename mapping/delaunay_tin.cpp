@@ -46,53 +46,29 @@ std::optional<std::size_t> findOffLine(const std::vector<Eigen::Vector3d>& point
     return std::nullopt;
 }
 
-/// From its lowest index on.
-Triangle fromLowest(const Triangle& t) {
-    const auto [a, b, c] = t;
-    if (a < b && a < c) return t;
-    return b < c ? Triangle{b, c, a} : Triangle{c, a, b};
+TriangleExtent extentOf(const TriangleMesh& mesh, const Triangle& triangle) {
+    const Eigen::Vector2d a = mesh.vertices_m[triangle[0]].head<2>();
+    const Eigen::Vector2d b = mesh.vertices_m[triangle[1]].head<2>();
+    const Eigen::Vector2d c = mesh.vertices_m[triangle[2]].head<2>();
+    const Eigen::Vector2d ab = b - a;
+    const Eigen::Vector2d ac = c - a;
+    return {std::sqrt(std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()})),
+            0.5 * (ab.x() * ac.y() - ab.y() * ac.x())};
 }
 
-/// Each from its lowest index on, in rising order.
-std::vector<Triangle> inRisingOrder(const std::vector<Triangle>& triangles, std::size_t vertex_count) {
-    std::vector<std::uint32_t> ends(vertex_count, 0);  // at first the begins, then moved on
-    for (const Triangle& triangle : triangles) ++ends[std::min({triangle[0], triangle[1], triangle[2]})];
-    std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), std::uint32_t{0});
-    std::vector<Triangle> ordered(triangles.size());
-    for (const Triangle& triangle : triangles) {
-        const Triangle turned = fromLowest(triangle);
-        ordered[ends[turned[0]]++] = turned;
-    }
-    std::uint32_t begin = 0;
-    for (const std::uint32_t end : ends) {
-        std::sort(ordered.data() + begin, ordered.data() + end);
-        begin = end;
-    }
-    return ordered;
-}
-
-std::vector<TriangleExtent> extents(const TriangleMesh& mesh) {
-    std::vector<TriangleExtent> result(mesh.triangles.size());
-    for (std::size_t t = 0; t < result.size(); ++t) {
-        const Eigen::Vector2d a = mesh.vertices_m[mesh.triangles[t][0]].head<2>();
-        const Eigen::Vector2d b = mesh.vertices_m[mesh.triangles[t][1]].head<2>();
-        const Eigen::Vector2d c = mesh.vertices_m[mesh.triangles[t][2]].head<2>();
-        const Eigen::Vector2d ab = b - a;
-        const Eigen::Vector2d ac = c - a;
-        result[t].longest_edge_m =
-            std::sqrt(std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()}));
-        result[t].area_m2 = 0.5 * (ab.x() * ac.y() - ab.y() * ac.x());
-    }
-    return result;
+double limitFromPoints(const TriangleMesh& mesh) {
+    std::vector<TriangleExtent> extents(mesh.triangles.size());
+    std::transform(mesh.triangles.begin(), mesh.triangles.end(), extents.begin(),
+                   [&](const Triangle& triangle) { return extentOf(mesh, triangle); });
+    return longestEdgeLimit(extents, mesh.vertices_m.size());
 }
 
 /// Leaves out the triangles above the limit and then the vertices that none uses; orders stay.
-TriangleMesh withinLimit(TriangleMesh mesh, const std::vector<TriangleExtent>& extent,
-                         double longest_edge_m) {
+TriangleMesh withinLimit(TriangleMesh mesh, double longest_edge_m) {
     std::vector<bool> used(mesh.vertices_m.size(), false);
     std::size_t kept = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (extent[t].longest_edge_m <= longest_edge_m) {
+        if (extentOf(mesh, mesh.triangles[t]).longest_edge_m <= longest_edge_m) {
             mesh.triangles[kept++] = mesh.triangles[t];
             for (const std::uint32_t vertex : mesh.triangles[t]) {
                 used[vertex] = true;
@@ -147,11 +123,11 @@ Result<TriangleMesh> delaunayMesh(const std::vector<Eigen::Vector3d>& points_m, 
         return badData(fmt::format("all {} ground points lie on one straight line", mesh.vertices_m.size()),
                        {}, 0, kCure);
     }
-    const auto triangles = delaunayTriangles(mesh.vertices_m, *off_line, progress, stop);
+    auto triangles = delaunayTriangles(mesh.vertices_m, *off_line, progress, stop);
     if (!triangles) {
         return tl::unexpected(triangles.error());
     }
-    mesh.triangles = inRisingOrder(*triangles, mesh.vertices_m.size());
+    mesh.triangles = std::move(*triangles);
     return mesh;
 }
 
@@ -168,22 +144,23 @@ Result<GroundMesh> triangulatePoints(const std::vector<Eigen::Vector3d>& points_
         if (!mesh) {
             return tl::unexpected(mesh.error());
         }
-        const std::vector<TriangleExtent> extent = extents(*mesh);
         GroundMesh ground;
-        ground.longest_edge_m = options.longest_edge_m > 0.0
-                                    ? options.longest_edge_m
-                                    : longestEdgeLimit(extent, mesh->vertices_m.size());
-        ground.mesh = withinLimit(std::move(*mesh), extent, ground.longest_edge_m);
-        if (ground.mesh.triangles.empty()) {
+        ground.longest_edge_m =
+            options.longest_edge_m > 0.0 ? options.longest_edge_m : limitFromPoints(*mesh);
+        std::size_t within = 0;
+        for (const Triangle& triangle : mesh->triangles) {
+            const TriangleExtent extent = extentOf(*mesh, triangle);
+            if (!(extent.longest_edge_m <= ground.longest_edge_m)) continue;
+            ++within;
+            ground.area_m2 += extent.area_m2;
+        }
+        if (within == 0) {
             return badData(fmt::format("no triangle between the ground points has all edges within {} m",
                                        ground.longest_edge_m),
                            {}, 0, "allow a longer edge, or 0 to take the limit from the points");
         }
-        for (const TriangleExtent& triangle : extent) {
-            if (triangle.longest_edge_m <= ground.longest_edge_m) {
-                ground.area_m2 += triangle.area_m2;
-            }
-        }
+        ground.mesh = within == mesh->triangles.size() ? std::move(*mesh)
+                                                       : withinLimit(std::move(*mesh), ground.longest_edge_m);
         progress.report(1.0, "triangulating");
         return ground;
     } catch (const std::bad_alloc&) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -42,140 +43,197 @@ std::vector<Index> insertionOrder(std::size_t count) {
     return order;
 }
 
-constexpr std::size_t next(std::size_t i) {
-    return i == 2 ? 0 : i + 1;
+struct Place {
+    double x, y;
+};
+
+PlanPoint exact(const Place& place) {
+    return {place.x, place.y};
 }
-constexpr std::size_t afterNext(std::size_t i) {
-    return i == 0 ? 2 : i - 1;
+
+// Plain arithmetic tells nearly all signs, CGAL's exact predicates the others. Bounds of the rounding errors:
+// Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust geometric predicates"; what is
+// added to them outweighs what underflow takes from coordinates up to 1e9.
+constexpr double kHalfStep = 0x1p-53;
+constexpr double kTurnBound = (3.0 + 16.0 * kHalfStep) * kHalfStep;
+constexpr double kCircleBound = (10.0 + 96.0 * kHalfStep) * kHalfStep;
+constexpr double kUnderflow = 1e-290;
+
+/// Whether c lies to the right of the way from a to b.
+bool turnsRight(const Place& a, const Place& b, const Place& c) {
+    const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
+    const double turn = left - right;
+    const double bound = kTurnBound * (std::abs(left) + std::abs(right)) + kUnderflow;
+    if (turn < -bound) return true;
+    if (turn > bound) return false;
+    return CGAL::orientation(exact(a), exact(b), exact(c)) == CGAL::RIGHT_TURN;
+}
+
+/// On the circle through three corners: inside after a perturbation too small to see, which moves the
+/// lexicographically greatest of the four points the most.
+bool inPerturbedCircle(const std::array<PlanPoint, 3>& corner, const PlanPoint& place) {
+    std::array<const PlanPoint*, 4> points{&corner[0], &corner[1], &corner[2], &place};
+    std::sort(points.begin(), points.end(), [](const PlanPoint* p, const PlanPoint* q) {
+        return CGAL::lexicographically_xy_smaller(*p, *q);
+    });
+    for (std::size_t i = 3; i > 0; --i) {
+        if (points[i] == &place) return false;
+        const CGAL::Orientation turn =
+            points[i] == &corner[2]   ? CGAL::orientation(corner[0], corner[1], place)
+            : points[i] == &corner[1] ? CGAL::orientation(corner[0], place, corner[2])
+                                      : CGAL::orientation(place, corner[1], corner[2]);
+        if (turn != CGAL::COLLINEAR) return turn == CGAL::LEFT_TURN;
+    }
+    return false;
+}
+
+/// Whether d lies inside the circle through a, b and c, which turn left.
+bool inCircle(const Place& a, const Place& b, const Place& c, const Place& d) {
+    const double ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y, cx = c.x - d.x,
+                 cy = c.y - d.y;
+    const double bc = bx * cy, cb = cx * by, ca = cx * ay, ac = ax * cy, ab = ax * by, ba = bx * ay;
+    const double aa = ax * ax + ay * ay, bb = bx * bx + by * by, cc = cx * cx + cy * cy;
+    const double inside = aa * (bc - cb) + bb * (ca - ac) + cc * (ab - ba);
+    const double size = (std::abs(bc) + std::abs(cb)) * aa + (std::abs(ca) + std::abs(ac)) * bb +
+                        (std::abs(ab) + std::abs(ba)) * cc;
+    const double bound = kCircleBound * size + kUnderflow;
+    if (inside > bound) return true;
+    if (inside < -bound) return false;
+    const std::array<PlanPoint, 3> corner{exact(a), exact(b), exact(c)};
+    const CGAL::Oriented_side side = CGAL::side_of_oriented_circle(corner[0], corner[1], corner[2], exact(d));
+    return side == CGAL::ON_ORIENTED_BOUNDARY ? inPerturbedCircle(corner, exact(d))
+                                              : side == CGAL::ON_POSITIVE_SIDE;
+}
+
+constexpr std::array<Index, 3> kNext{1, 2, 0};
+constexpr std::array<Index, 3> kAfterNext{2, 0, 1};
+
+/// Edge `edge` of a face, in one number. The edge lies opposite that vertex.
+constexpr Index edgeOf(Index face, Index edge) {
+    return (face << 2U) | edge;
+}
+constexpr Index faceOf(Index link) {
+    return link >> 2U;
+}
+constexpr Index sideOf(Index link) {
+    return link & 3U;
 }
 
 /// Faces over a sphere: finite ones counter-clockwise, and one with the infinite vertex beyond each edge of
-/// the hull. Edge i of a face lies opposite its vertex i, and neighbour i beyond it.
+/// the hull. Each edge of a face is linked with the same edge of the face beyond.
 class Faces {
   public:
-    Faces(const std::vector<Eigen::Vector3d>& points_m, Triangle first) : points_m_(points_m) {
+    Faces(const std::vector<Eigen::Vector3d>& points_m, Triangle first) {
+        places_.reserve(points_m.size());
+        for (const Eigen::Vector3d& point : points_m) places_.push_back({point.x(), point.y()});
         faces_.reserve(2 * points_m.size());
-        if (CGAL::orientation(at(first[0]), at(first[1]), at(first[2])) == CGAL::RIGHT_TURN) {
+        if (turnsRight(places_[first[0]], places_[first[1]], places_[first[2]])) {
             std::swap(first[1], first[2]);
         }
-        faces_.push_back({first, {1, 2, 3}});
-        for (std::size_t i = 0; i < 3; ++i) {
+        faces_.push_back({first, {edgeOf(1, 0), edgeOf(2, 0), edgeOf(3, 0)}});
+        for (Index i = 0; i < 3; ++i) {
             // Beyond edge i; its own edges lead to the faces beyond the other two.
-            faces_.push_back({{kInfinite, first[afterNext(i)], first[next(i)]},
-                              {0, static_cast<Index>(1 + afterNext(i)), static_cast<Index>(1 + next(i))}});
+            faces_.push_back({{kInfinite, first[kAfterNext[i]], first[kNext[i]]},
+                              {edgeOf(0, i), edgeOf(1 + kAfterNext[i], 2), edgeOf(1 + kNext[i], 1)}});
         }
     }
 
     void insert(Index point) {
-        const PlanPoint place = at(point);
+        const Place place = places_[point];
         const Index start = locate(place);
         dead_.assign(1, start);
         hole_.clear();
         // The edges round the hole, counter-clockwise: an edge whose far face is in conflict gives way to the
         // two others of that face. The faces in conflict hold no vertex between them, so none comes twice.
-        open_.assign({{start, 2}, {start, 1}, {start, 0}});
+        open_.assign({edgeOf(start, 2), edgeOf(start, 1), edgeOf(start, 0)});
         while (!open_.empty()) {
-            const auto [face, edge] = open_.back();
+            const Index here = open_.back();
             open_.pop_back();
-            const Index beyond = faces_[face].neighbours[edge];
-            const std::size_t back = edgeTo(beyond, face);
-            if (inConflict(beyond, place)) {
+            const Face& inner = faces_[faceOf(here)];
+            const Index link = inner.links[sideOf(here)];
+            const Index beyond = faceOf(link), back = sideOf(link);
+            if (inConflict(faces_[beyond].vertices, place)) {
                 dead_.push_back(beyond);
-                open_.push_back({beyond, afterNext(back)});
-                open_.push_back({beyond, next(back)});
+                open_.push_back(edgeOf(beyond, kAfterNext[back]));
+                open_.push_back(edgeOf(beyond, kNext[back]));
             } else {
-                const Triangle& v = faces_[face].vertices;
-                hole_.push_back({v[next(edge)], v[afterNext(edge)], beyond, back});
+                hole_.push_back(
+                    {inner.vertices[kNext[sideOf(here)]], inner.vertices[kAfterNext[sideOf(here)]], link});
             }
         }
         fillHole(point);
     }
 
-    [[nodiscard]] std::vector<Triangle> finite() const {
-        std::vector<Triangle> triangles;
-        triangles.reserve(faces_.size());
+    /// Finite faces, each from its lowest vertex on, in rising order.
+    [[nodiscard]] std::vector<Triangle> inRisingOrder() && {
+        const auto lowest = [](const Triangle& t) {
+            return std::min({t[0], t[1], t[2]});
+        };
+        std::vector<Index> ends(places_.size(), 0);  // at first the begins, then moved on
+        places_ = {};                                // makes room
+        std::size_t finite = 0;
         for (const Face& face : faces_) {
-            if (!isInfinite(face.vertices)) triangles.push_back(face.vertices);
+            if (isInfinite(face.vertices)) continue;
+            ++ends[lowest(face.vertices)];
+            ++finite;
         }
-        return triangles;
+        std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), Index{0});
+        std::vector<Triangle> ordered(finite);
+        for (const Face& face : faces_) {
+            if (isInfinite(face.vertices)) continue;
+            const auto [a, b, c] = face.vertices;
+            const Triangle turned = a < b && a < c ? Triangle{a, b, c}
+                                    : b < c        ? Triangle{b, c, a}
+                                                   : Triangle{c, a, b};
+            // Few triangles share their lowest vertex: each goes to its place among those that came before.
+            Index at = ends[turned[0]]++;
+            for (; at > 0 && turned < ordered[at - 1]; --at) ordered[at] = ordered[at - 1];
+            ordered[at] = turned;
+        }
+        return ordered;
     }
 
   private:
     struct Face {
         Triangle vertices;
-        std::array<Index, 3> neighbours;
-    };
-    struct FaceEdge {
-        Index face;
-        std::size_t edge;
+        std::array<Index, 3> links;
     };
     struct HoleEdge {
         Index from, to;
         Index beyond;
-        std::size_t back;  ///< edge of `beyond` that leads here
     };
-
-    [[nodiscard]] PlanPoint at(Index vertex) const { return {points_m_[vertex].x(), points_m_[vertex].y()}; }
 
     static bool isInfinite(const Triangle& v) {
         return v[0] == kInfinite || v[1] == kInfinite || v[2] == kInfinite;
     }
 
-    [[nodiscard]] std::size_t edgeTo(Index face, Index neighbour) const {
-        const auto& n = faces_[face].neighbours;
-        return n[0] == neighbour ? 0 : n[1] == neighbour ? 1 : 2;
-    }
-
     /// A face in conflict with the place: the one that holds it, or one outside that sees it. Walks towards
     /// it; in a Delaunay triangulation that comes to an end.
-    [[nodiscard]] Index locate(const PlanPoint& place) const {
-        Index face = near_, before = kInfinite;
+    [[nodiscard]] Index locate(const Place& place) const {
+        Index face = near_, came_by = 3;
         for (;;) {
-            const auto& [v, neighbours] = faces_[face];
+            const auto& [v, links] = faces_[face];
             Index onward = kInfinite;
-            for (std::size_t i = 0; i < 3 && onward == kInfinite; ++i) {
-                if (neighbours[i] != before &&
-                    CGAL::orientation(at(v[next(i)]), at(v[afterNext(i)]), place) == CGAL::RIGHT_TURN) {
-                    onward = neighbours[i];
+            for (Index i = 0; i < 3 && onward == kInfinite; ++i) {
+                if (i != came_by && turnsRight(places_[v[kNext[i]]], places_[v[kAfterNext[i]]], place)) {
+                    onward = links[i];
                 }
             }
             if (onward == kInfinite) return face;
-            if (isInfinite(faces_[onward].vertices)) return onward;
-            before = std::exchange(face, onward);
+            face = faceOf(onward);
+            came_by = sideOf(onward);
+            if (isInfinite(faces_[face].vertices)) return face;
         }
     }
 
-    [[nodiscard]] bool inConflict(Index face, const PlanPoint& place) const {
-        const Triangle& v = faces_[face].vertices;
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (v[i] != kInfinite) continue;
-            const PlanPoint a = at(v[next(i)]), b = at(v[afterNext(i)]);
-            const CGAL::Orientation side = CGAL::orientation(a, b, place);
-            return side == CGAL::LEFT_TURN ||
-                   (side == CGAL::COLLINEAR && CGAL::collinear_are_strictly_ordered_along_line(a, place, b));
-        }
-        return inCircle({at(v[0]), at(v[1]), at(v[2])}, place);
-    }
-
-    /// Inside the circle through three corners, or on it and inside after a perturbation too small to see,
-    /// which moves the lexicographically greatest of the four points the most.
-    static bool inCircle(const std::array<PlanPoint, 3>& corner, const PlanPoint& place) {
-        const CGAL::Oriented_side side =
-            CGAL::side_of_oriented_circle(corner[0], corner[1], corner[2], place);
-        if (side != CGAL::ON_ORIENTED_BOUNDARY) return side == CGAL::ON_POSITIVE_SIDE;
-        std::array<const PlanPoint*, 4> points{&corner[0], &corner[1], &corner[2], &place};
-        std::sort(points.begin(), points.end(), [](const PlanPoint* p, const PlanPoint* q) {
-            return CGAL::lexicographically_xy_smaller(*p, *q);
-        });
-        for (std::size_t i = 3; i > 0; --i) {
-            if (points[i] == &place) return false;
-            const CGAL::Orientation turn =
-                points[i] == &corner[2]   ? CGAL::orientation(corner[0], corner[1], place)
-                : points[i] == &corner[1] ? CGAL::orientation(corner[0], place, corner[2])
-                                          : CGAL::orientation(place, corner[1], corner[2]);
-            if (turn != CGAL::COLLINEAR) return turn == CGAL::LEFT_TURN;
-        }
-        return false;
+    [[nodiscard]] bool inConflict(const Triangle& v, const Place& place) const {
+        if (!isInfinite(v)) return inCircle(places_[v[0]], places_[v[1]], places_[v[2]], place);
+        const std::size_t i = v[0] == kInfinite ? 0 : v[1] == kInfinite ? 1 : 2;
+        const PlanPoint a = exact(places_[v[kNext[i]]]), b = exact(places_[v[kAfterNext[i]]]);
+        const PlanPoint c = exact(place);
+        const CGAL::Orientation side = CGAL::orientation(a, b, c);
+        return side == CGAL::LEFT_TURN ||
+               (side == CGAL::COLLINEAR && CGAL::collinear_are_strictly_ordered_along_line(a, c, b));
     }
 
     /// One face from each edge of the hole to the new vertex, in the place of the dead ones and two more.
@@ -184,21 +242,23 @@ class Faces {
             dead_.push_back(static_cast<Index>(faces_.size()));
             faces_.emplace_back();
         }
+        Index preceding = dead_[hole_.size() - 1];
         for (std::size_t k = 0; k < hole_.size(); ++k) {
             const HoleEdge& edge = hole_[k];
-            const Index following = dead_[k + 1 == hole_.size() ? 0 : k + 1];
-            const Index preceding = dead_[k == 0 ? hole_.size() - 1 : k - 1];
-            faces_[dead_[k]] = {{edge.from, edge.to, point}, {following, preceding, edge.beyond}};
-            faces_[edge.beyond].neighbours[edge.back] = dead_[k];
-            if (edge.from != kInfinite && edge.to != kInfinite) near_ = dead_[k];
+            const Index face = dead_[k], following = dead_[k + 1 == hole_.size() ? 0 : k + 1];
+            faces_[face] = {{edge.from, edge.to, point},
+                            {edgeOf(following, 1), edgeOf(preceding, 0), edge.beyond}};
+            faces_[faceOf(edge.beyond)].links[sideOf(edge.beyond)] = edgeOf(face, 2);
+            if (edge.from != kInfinite && edge.to != kInfinite) near_ = face;
+            preceding = face;
         }
     }
 
-    const std::vector<Eigen::Vector3d>& points_m_;
+    std::vector<Place> places_;
     std::vector<Face> faces_;
     Index near_ = 0;  ///< a finite face, where the next walk begins
     std::vector<Index> dead_;
-    std::vector<FaceEdge> open_;
+    std::vector<Index> open_;  ///< edges of dead faces
     std::vector<HoleEdge> hole_;
 };
 
@@ -218,7 +278,7 @@ Result<std::vector<Triangle>> delaunayTriangles(const std::vector<Eigen::Vector3
         }
         if (std::find(first.begin(), first.end(), point) == first.end()) faces.insert(point);
     }
-    return faces.finite();
+    return std::move(faces).inRisingOrder();
 }
 
 }  // namespace terrawalk

@@ -12,11 +12,12 @@
 
 namespace terrawalk {
 
-/// The Delaunay triangles of points in plan, counter-clockwise, in no order that means anything. Where four
+/// The Delaunay triangles of points in plan, counter-clockwise, each from its lowest
+/// index on, in rising order. Where four
 /// points lie on one circle they are told apart as CGAL does (Devillers and Teillaud 2003), so that the
-/// triangles do not depend on the order of the points. Predicates are CGAL's exact ones; the structure is one
-/// of plain index arrays, which takes a third of the memory of CGAL's own. Pure; safe from any thread.
-/// Errors: Cancelled.
+/// triangles do not depend on the order of the points. Predicates are exact, CGAL's where plain arithmetic
+/// does not suffice; the structure is one of plain index arrays, which takes a third of the memory of CGAL's
+/// own. Pure; safe from any thread. Errors: Cancelled.
 /// @param points_m  different places, finite, at least three and not all on one line; neighbours in the list
 ///                  should be neighbours on the ground, for speed
 /// @param off_line  index of a point that makes a triangle with the first and the last

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -96,9 +97,21 @@ class Flood {
         return result;
     }
 
-    /// Where the cell's water goes; the cell count where it leaves the DEM.
-    [[nodiscard]] std::size_t receiver(std::size_t cell, const std::vector<double>& filled) const {
-        std::size_t best = size();
+    /// A neighbour and the part of a cell's water that it gets; the cell count where it leaves the DEM.
+    struct Share {
+        std::size_t to;
+        double part;
+    };
+    using Shares = std::array<Share, 2>;
+
+    [[nodiscard]] Shares sharesOf(std::size_t cell, const std::vector<double>& filled,
+                                  FlowRouting routing) const {
+        return routing == FlowRouting::D8 ? alongSteepest(cell, filled) : downSteepestFacet(cell, filled);
+    }
+
+  private:
+    [[nodiscard]] Shares alongSteepest(std::size_t cell, const std::vector<double>& filled) const {
+        Shares shares{{{size(), 1.0}, {size(), 0.0}}};
         double steepest = 0.0;
         for (const Step& step : kNeighbours) {
             const std::size_t other = neighbour(cell, step);
@@ -106,13 +119,45 @@ class Flood {
             const double descent = (filled[cell] - filled[other]) / step.length;
             if (descent > steepest) {
                 steepest = descent;
-                best = other;
+                shares[0].to = other;
             }
         }
-        return best;
+        return shares;
     }
 
-  private:
+    /// Tarboton 1997, equations 1 to 5 and 7. A facet without one of its corners is an edge: water runs along
+    /// it as in D8. Both receivers lie lower than the cell, or the angle would have been bounded to one.
+    [[nodiscard]] Shares downSteepestFacet(std::size_t cell, const std::vector<double>& filled) const {
+        constexpr double kFacet_rad = 0.25 * std::numbers::pi;
+        std::array<std::size_t, 8> around{};
+        for (std::size_t i = 0; i < 8; ++i) around[i] = neighbour(cell, kNeighbours[i]);
+        Shares shares{{{size(), 1.0}, {size(), 0.0}}};
+        double steepest = 0.0;
+        for (std::size_t facet = 0; facet < 8; ++facet) {
+            const std::size_t straight = around[(facet + 1) / 2 * 2 % 8];
+            const std::size_t diagonal = around[facet / 2 * 2 + 1];
+            const double here = filled[cell];
+            double slope = 0.0, part_of_diagonal = 0.0;
+            if (straight != size() && diagonal != size()) {
+                const double down = here - filled[straight], aside = filled[straight] - filled[diagonal];
+                const double angle_rad = std::clamp(std::atan2(aside, down), 0.0, kFacet_rad);
+                part_of_diagonal = angle_rad / kFacet_rad;
+                slope = aside <= 0.0    ? down
+                        : aside >= down ? (here - filled[diagonal]) / kDiagonal
+                                        : std::hypot(down, aside);
+            } else if (straight != size()) {
+                slope = here - filled[straight];
+            } else if (diagonal != size()) {
+                slope = (here - filled[diagonal]) / kDiagonal;
+                part_of_diagonal = 1.0;
+            }
+            if (!(slope > steepest)) continue;
+            steepest = slope;
+            shares = {{{straight, 1.0 - part_of_diagonal}, {diagonal, part_of_diagonal}}};
+        }
+        return shares;
+    }
+
     [[nodiscard]] bool isEdge(std::size_t cell) const {
         return std::any_of(kNeighbours.begin(), kNeighbours.end(),
                            [&](const Step& step) { return neighbour(cell, step) == size(); });
@@ -122,30 +167,47 @@ class Flood {
     std::size_t columns_;
 };
 
+Result<ElevationGrid> accumulationOf(const Flood& flood, const Flood::Filled& filled,
+                                     const ElevationGrid& heights, FlowRouting routing, Progress& progress,
+                                     const std::stop_token& stop) {
+    const double cell_area = heights.geometry.cell_m * heights.geometry.cell_m;
+    std::vector<double> area(flood.size(), cell_area);
+    const std::vector<std::size_t>& upward = filled.upward;
+    for (std::size_t i = upward.size(); i-- > 0;) {
+        if (i % kCellsBetweenStops == 0) {
+            if (stop.stop_requested()) return cancelled();
+            progress.report(1.0 - static_cast<double>(i) / static_cast<double>(upward.size()),
+                            "following the water");
+        }
+        for (const Flood::Share& share : flood.sharesOf(upward[i], filled.heights, routing)) {
+            if (share.to != flood.size() && share.part > 0.0) area[share.to] += share.part * area[upward[i]];
+        }
+    }
+    ElevationGrid accumulation{heights.geometry, std::vector<float>(flood.size(), kNoHeight)};
+    for (const std::size_t cell : upward) accumulation.heights_m[cell] = static_cast<float>(area[cell]);
+    return accumulation;
+}
+
 }  // namespace
 
-Result<Drainage> drainageOf(const ElevationGrid& heights, Progress& progress, std::stop_token stop) {
+Result<Drainage> drainageOf(const ElevationGrid& heights, const std::vector<FlowRouting>& routings,
+                            Progress& progress, std::stop_token stop) {
     Flood flood(heights);
     PartialProgress filling(progress, 0.0, 0.7);
     const auto filled = flood.fill(filling, stop);
     if (!filled) return tl::unexpected(filled.error());
-    const double cell_area = heights.geometry.cell_m * heights.geometry.cell_m;
-    std::vector<double> area(flood.size(), cell_area);
-    const std::vector<std::size_t>& upward = filled->upward;
-    for (std::size_t i = upward.size(); i-- > 0;) {
-        if (i % kCellsBetweenStops == 0) {
-            if (stop.stop_requested()) return cancelled();
-            progress.report(1.0 - 0.3 * static_cast<double>(i) / static_cast<double>(upward.size()),
-                            "following the water");
-        }
-        const std::size_t to = flood.receiver(upward[i], filled->heights);
-        if (to != flood.size()) area[to] += area[upward[i]];
-    }
-    Drainage drainage{heights, heights};
-    for (const std::size_t cell : upward) {
-        drainage.accumulation.heights_m[cell] = static_cast<float>(area[cell]);
+    Drainage drainage{{}, heights};
+    for (const std::size_t cell : filled->upward) {
         drainage.wet_depth.heights_m[cell] =
             static_cast<float>(filled->heights[cell]) - heights.heights_m[cell];
+    }
+    for (std::size_t r = 0; r < routings.size(); ++r) {
+        const double share = 0.3 / static_cast<double>(routings.size());
+        PartialProgress following(progress, 0.7 + share * static_cast<double>(r),
+                                  0.7 + share * static_cast<double>(r + 1));
+        auto accumulation = accumulationOf(flood, *filled, heights, routings[r], following, stop);
+        if (!accumulation) return tl::unexpected(accumulation.error());
+        drainage.accumulations.push_back(std::move(*accumulation));
     }
     return drainage;
 }

@@ -159,15 +159,18 @@ RowBands rowBands(const TriangleMesh& mesh, const std::vector<GridVertex>& verti
                       [&](std::size_t t) { rows[t] = rowsOf(mesh.triangles[t], vertices, row_count); });
     RowBands bands;
     // Tall triangles in many bands would fill the memory with lists: then higher bands.
-    for (std::size_t entries = 0;; bands.rows_per_band *= 2, entries = 0) {
-        visitBands(rows, bands.rows_per_band, [&](std::size_t, std::uint32_t) { ++entries; });
+    for (;; bands.rows_per_band *= 2) {
+        bands.begins.assign((row_count + bands.rows_per_band - 1) / bands.rows_per_band + 1, 0);
+        std::size_t entries = 0;
+        visitBands(rows, bands.rows_per_band, [&](std::size_t band, std::uint32_t) {
+            ++bands.begins[band + 1];
+            ++entries;
+        });
         if (entries <= 4 * rows.size() || bands.rows_per_band >= row_count) {
             break;
         }
     }
-    const std::size_t band_count = (row_count + bands.rows_per_band - 1) / bands.rows_per_band;
-    bands.begins.assign(band_count + 1, 0);
-    visitBands(rows, bands.rows_per_band, [&](std::size_t band, std::uint32_t) { ++bands.begins[band + 1]; });
+    const std::size_t band_count = bands.begins.size() - 1;
     for (std::size_t band = 0; band < band_count; ++band) {
         bands.begins[band + 1] += bands.begins[band];
     }

@@ -1,16 +1,21 @@
 #include "mapping/point_cleaning.hpp"
 
 #include <fmt/format.h>
-#include <pcl/filters/radius_outlier_removal.h>
-#include <pcl/filters/statistical_outlier_removal.h>
+// Its templates are compiled here: looking up the symbols of libpcl_segmentation would take longer than all the
+// rest of starting the program.
+#define PCL_NO_PRECOMPILE
+#include <pcl/kdtree/kdtree_flann.h>
 #include <pcl/point_types.h>
 #include <pcl/segmentation/extract_clusters.h>
 #include <pcl/segmentation/progressive_morphological_filter.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
+#include <string>
 #include <utility>
 
 #include "mapping/point_order.hpp"
@@ -60,26 +65,74 @@ pcl::Indices othersThan(const pcl::Indices& kept, std::size_t count) {
     return others;
 }
 
-pcl::Indices statisticalOutliers(const Cloud::Ptr& cloud, const StatisticalOutlierOptions& options) {
-    if (cloud->size() <= static_cast<std::size_t>(options.neighbours)) return {};
-    pcl::StatisticalOutlierRemoval<pcl::PointXYZ> filter;
-    filter.setInputCloud(cloud);
-    filter.setMeanK(options.neighbours);
-    filter.setStddevMulThresh(options.sigmas);
-    pcl::Indices kept;
-    filter.filter(kept);
-    return othersThan(kept, cloud->size());
+/// What a point's nearest neighbours say of it, for all points, a block at a time. PCL's own filters do the
+/// same in one go, which nobody could stop.
+template <class Value, class Say>
+std::vector<Value> ofNeighbours(const Cloud::Ptr& cloud, int neighbours, Say say, Progress& progress,
+                                const std::string& step, const std::stop_token& stop) {
+    constexpr std::size_t kBlock = 1024;
+    pcl::KdTreeFLANN<pcl::PointXYZ> tree(false);  // sorted all the same, as PCL's filters have it
+    tree.setInputCloud(cloud);
+    std::vector<Value> values(cloud->size());
+    std::atomic<std::size_t> done = 0;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud->size(), kBlock), [&](const auto& range) {
+        if (stop.stop_requested()) return;
+        // One more, as the point itself is found too.
+        pcl::Indices found(static_cast<std::size_t>(neighbours) + 1);
+        std::vector<float> squares_m2(found.size());
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            const int count = tree.nearestKSearch((*cloud)[i], neighbours + 1, found, squares_m2);
+            values[i] = say(count, squares_m2);
+        }
+        progress.report(static_cast<double>(done += range.size()) / static_cast<double>(cloud->size()), step);
+    });
+    return values;
 }
 
-pcl::Indices radiusOutliers(const Cloud::Ptr& cloud, const RadiusOutlierOptions& options) {
+/// As pcl::StatisticalOutlierRemoval.
+pcl::Indices statisticalOutliers(const Cloud::Ptr& cloud, const StatisticalOutlierOptions& options,
+                                 Progress& progress, const std::stop_token& stop) {
+    if (cloud->size() <= static_cast<std::size_t>(options.neighbours)) return {};
+    const auto meanDistance = [&](int, const std::vector<float>& squares_m2) {
+        double sum = 0.0;
+        for (int k = 1; k <= options.neighbours; ++k) {
+            sum += double{std::sqrt(squares_m2[static_cast<std::size_t>(k)])};
+        }
+        return static_cast<float>(sum / options.neighbours);
+    };
+    const std::vector<float> distances_m = ofNeighbours<float>(
+        cloud, options.neighbours, meanDistance, progress, "looking for statistical outliers", stop);
+    double sum = 0.0, squares = 0.0;
+    for (const float distance_m : distances_m) {
+        sum += double{distance_m};
+        squares += double{distance_m * distance_m};
+    }
+    const auto count = static_cast<double>(distances_m.size());
+    const double limit_m =
+        sum / count + options.sigmas * std::sqrt((squares - sum * sum / count) / (count - 1.0));
+    pcl::Indices outliers;
+    for (std::size_t i = 0; i < distances_m.size(); ++i) {
+        if (double{distances_m[i]} > limit_m) outliers.push_back(static_cast<pcl::index_t>(i));
+    }
+    return outliers;
+}
+
+/// As pcl::RadiusOutlierRemoval of a cloud without gaps.
+pcl::Indices radiusOutliers(const Cloud::Ptr& cloud, const RadiusOutlierOptions& options, Progress& progress,
+                            const std::stop_token& stop) {
     if (cloud->empty()) return {};
-    pcl::RadiusOutlierRemoval<pcl::PointXYZ> filter;
-    filter.setInputCloud(cloud);
-    filter.setRadiusSearch(options.radius_m);
-    filter.setMinNeighborsInRadius(options.least_neighbours);
-    pcl::Indices kept;
-    filter.filter(kept);
-    return othersThan(kept, cloud->size());
+    const int wanted = options.least_neighbours + 1;
+    const double radius_m2 = options.radius_m * options.radius_m;
+    const auto alone = [&](int count, const std::vector<float>& squares_m2) -> char {
+        return count < wanted || double{squares_m2[static_cast<std::size_t>(wanted) - 1]} > radius_m2 ? 1 : 0;
+    };
+    const std::vector<char> is_alone = ofNeighbours<char>(cloud, options.least_neighbours, alone, progress,
+                                                          "looking for isolated points", stop);
+    pcl::Indices outliers;
+    for (std::size_t i = 0; i < is_alone.size(); ++i) {
+        if (is_alone[i] != 0) outliers.push_back(static_cast<pcl::index_t>(i));
+    }
+    return outliers;
 }
 
 /// PCL takes whole metres.
@@ -210,15 +263,16 @@ Result<std::vector<GroundPoint>> cleanGroundPoints(std::vector<GroundPoint> poin
     if (auto checked = check(options); !checked) return tl::unexpected(checked.error());
     try {
         if (options.statistical.use && !stop.stop_requested()) {
-            progress.report(0.0, "looking for statistical outliers");
+            PartialProgress part(progress, 0.0, 0.2);
             const UsedPoints used = usedPoints(points);
-            mark(points, used, statisticalOutliers(used.cloud, options.statistical),
+            mark(points, used, statisticalOutliers(used.cloud, options.statistical, part, stop),
                  GroundPointState::StatisticalOutlier);
         }
         if (options.radius.use && !stop.stop_requested()) {
-            progress.report(0.2, "looking for isolated points");
+            PartialProgress part(progress, 0.2, 0.3);
             const UsedPoints used = usedPoints(points);
-            mark(points, used, radiusOutliers(used.cloud, options.radius), GroundPointState::Isolated);
+            mark(points, used, radiusOutliers(used.cloud, options.radius, part, stop),
+                 GroundPointState::Isolated);
         }
         if (options.above_ground.use && !stop.stop_requested()) {
             progress.report(0.3, "looking for what stands above the ground");

@@ -51,7 +51,8 @@ struct PointCleaningOptions {
 /// the one before left. Nothing moves and nothing goes: cleaning again with other options begins with
 /// withoutCleaning(). Spikes along the track are found earlier, see groundPoints(), and thinning follows, see
 /// thinGroundPoints(). Any order of the points and any number of threads mark the same points.
-/// Filters: PCL. Errors: Usage for options out of range; System; Cancelled.
+/// Filters: PCL's, the outliers by its trees and its definitions. Errors: Usage for options out of range;
+/// System; Cancelled.
 [[nodiscard]] Result<std::vector<GroundPoint>> cleanGroundPoints(std::vector<GroundPoint> points,
                                                                  const PointCleaningOptions& options,
                                                                  Progress& progress, std::stop_token stop);

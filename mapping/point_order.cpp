@@ -14,20 +14,42 @@ namespace {
 constexpr double kGreatestCoordinate_m = 1e9;  // beyond any map frame on Earth
 constexpr int kCurveBits = 24;                 // per axis
 
+/// Four levels of a Hilbert curve at once. Below a quarter the curve runs as it does on the whole, with the
+/// axes exchanged (bit 0 of the state) or mirrored (bit 1).
+struct CurveStep {
+    std::uint8_t index;  ///< along the curve
+    std::uint8_t state;  ///< for what lies below
+};
+constexpr int kLevelsAtOnce = 4;
+
+/// By state, column and row.
+constexpr std::array<CurveStep, 1024> kCurveSteps = [] {
+    std::array<CurveStep, 1024> steps{};
+    for (std::uint32_t at = 0; at < steps.size(); ++at) {
+        std::uint32_t state = at >> 8U, index = 0;
+        for (std::uint32_t bit = kLevelsAtOnce; bit-- > 0;) {
+            const std::uint32_t column = (at >> (4U + bit)) & 1U, row = (at >> bit) & 1U;
+            const std::uint32_t mirror = state >> 1U;
+            const std::uint32_t right = ((state & 1U) != 0 ? row : column) ^ mirror;
+            const std::uint32_t upper = ((state & 1U) != 0 ? column : row) ^ mirror;
+            index = (index << 2U) | ((3U * right) ^ upper);
+            state ^= (right & (upper ^ 1U)) << 1U;
+            state ^= upper ^ 1U;
+        }
+        steps[at] = {static_cast<std::uint8_t>(index), static_cast<std::uint8_t>(state)};
+    }
+    return steps;
+}();
+
 /// Place along a Hilbert curve over 2^24 x 2^24 cells. Neighbours on the curve are neighbours on the ground.
 std::uint64_t hilbertIndex(std::uint32_t column, std::uint32_t row) {
     std::uint64_t index = 0;
-    for (int bit = kCurveBits - 1; bit >= 0; --bit) {
-        const std::uint32_t right = (column >> bit) & 1U;
-        const std::uint32_t upper = (row >> bit) & 1U;
-        index = (index << 2) | ((3U * right) ^ upper);
-        // Without branches: which quarter comes next is as good as random.
-        const std::uint32_t mirror = 0U - (right & (upper ^ 1U));
-        column ^= mirror;
-        row ^= mirror;
-        const std::uint32_t exchange = (column ^ row) & (0U - (upper ^ 1U));
-        column ^= exchange;
-        row ^= exchange;
+    std::uint32_t state = 0;
+    for (int bit = kCurveBits - kLevelsAtOnce; bit >= 0; bit -= kLevelsAtOnce) {
+        const CurveStep& step =
+            kCurveSteps[(state << 8U) | (((column >> bit) & 15U) << 4U) | ((row >> bit) & 15U)];
+        index = (index << 8U) | step.index;
+        state = step.state;
     }
     return index;
 }

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kLeastInWindow = 12;
 constexpr std::size_t kLeastNearby = 6;
-constexpr double kSeedGain = 12.0;  // of the information criterion; 10 counts as very strong
+constexpr double kSeedGain = 9.0;  // of the information criterion; 10 counts as very strong
 constexpr double kTrackGain = 4.0;
 constexpr double kDoubtfulGain = -25.0;  // neither for a step nor against it
 constexpr double kLongestDoubt_m = 25.0;

@@ -24,13 +24,13 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kLeastPoints = 30;
 constexpr double kPointsInWindow = 60.0;
-constexpr double kMorePoints_pm2 = 1500.0;  // per variance of the heights: noise takes more points
-constexpr double kGapsAlong = 3.0;          // to either side: lines of a walk on both sides of each place
+constexpr double kMorePoints_pm2 = 4000.0;  // per variance of the heights: noise takes more points
+constexpr double kGapsAlong = 5.0;          // to either side: lines of a walk on both sides of each place
 constexpr double kGapsAcross = 2.0;
 constexpr double kLeastReach_m = 1.2;
 constexpr double kLeastAlong_m = 2.5;
-constexpr double kGreatestAlong_m = 10.0;
-constexpr double kLeastEvidence = 25.0;  // of a whole edge, by the information criterion
+constexpr double kGreatestAlong_m = 20.0;
+constexpr double kLeastEvidence = 15.0;  // of a whole edge, by the information criterion
 
 /// Spread of the heights about the plane through their nearest neighbours; robust, so that risers count
 /// little.

@@ -112,6 +112,8 @@ void addDeriveOptions(CLI::App& command, DeriveRequest& r) {
     flag("--roughness", {Derivative::Roughness}, "Range of heights in nine cells");
     command.add_flag("--flow-accumulation", r.flow_accumulation,
                      "Area that drains through each cell (priority flood, D8)");
+    command.add_flag("--flow-accumulation-dinf", r.flow_accumulation_dinf,
+                     "The same by D-infinity: slopes without stripes, valleys that spread");
     command.add_flag("--wet-spots", r.wet_spots, "Depth of water that stands before it spills");
     addChoice(command, "--slope-unit", r.options.slope_unit, kSlopeUnits, "Of the slope");
     const auto angle = [&](const char* option, double& radians_value, const char* meaning, double most) {

@@ -43,6 +43,13 @@ Meaning meaningOf(Derivative derivative, const DerivativeOptions& options, const
     return {};
 }
 
+std::vector<FlowRouting> routingsOf(const DeriveRequest& request) {
+    std::vector<FlowRouting> routings;
+    if (request.flow_accumulation) routings.push_back(FlowRouting::D8);
+    if (request.flow_accumulation_dinf) routings.push_back(FlowRouting::DInfinity);
+    return routings;
+}
+
 class RasterWriter {
   public:
     RasterWriter(const DeriveRequest& request, const DemFile& dem, DeriveOutcome& outcome)
@@ -68,14 +75,16 @@ class RasterWriter {
 }  // namespace
 
 Result<DeriveOutcome> deriveRasters(const DeriveRequest& request, Progress& progress, std::stop_token stop) {
-    const bool water = request.flow_accumulation || request.wet_spots;
+    const std::vector<FlowRouting> routings = routingsOf(request);
+    const bool water = !routings.empty() || request.wet_spots;
     if (request.derivatives.empty() && !water) {
         return usageError("nothing to derive", "name a raster, e.g. --slope or --hillshade");
     }
     progress.report(0.0, "reading");
     const auto dem = readDem(request.dem, stop);
     if (!dem) return tl::unexpected(dem.error());
-    const double per_cell = kBytesPerCell + (water ? kDrainageBytesPerCell : 0.0);
+    const double per_cell = kBytesPerCell + (water ? kDrainageBytesPerCell : 0.0) +
+                            (routings.size() > 1 ? kAccumulationBytesPerCell : 0.0);
     if (auto fits = checkCellMemory(dem->grid.geometry.size(), per_cell, "deriving rasters of"); !fits) {
         return tl::unexpected(fits.error());
     }
@@ -101,15 +110,18 @@ Result<DeriveOutcome> deriveRasters(const DeriveRequest& request, Progress& prog
     }
     if (water) {
         PartialProgress part(progress, static_cast<double>(request.derivatives.size()) / steps, 1.0);
-        const auto drainage = drainageOf(dem->grid, part, stop);
+        const auto drainage = drainageOf(dem->grid, routings, part, stop);
         if (!drainage) return tl::unexpected(drainage.error());
         const std::string& unit = dem->crs.unit.symbol;
         Result<void> done;
-        if (request.flow_accumulation) {
-            done = writer.write(drainage->accumulation, "flow_accumulation",
-                                {"Area that drains through the cell", unit + "2",
-                                 "priority flood (Barnes et al. 2014), D8 (O'Callaghan and Mark 1984)"},
-                                stop);
+        for (std::size_t r = 0; r < routings.size() && done; ++r) {
+            const bool d8 = routings[r] == FlowRouting::D8;
+            done =
+                writer.write(drainage->accumulations[r], d8 ? "flow_accumulation" : "flow_accumulation_dinf",
+                             {"Area that drains through the cell", unit + "2",
+                              d8 ? "priority flood (Barnes et al. 2014), D8 (O'Callaghan and Mark 1984)"
+                                 : "priority flood (Barnes et al. 2014), D-infinity (Tarboton 1997)"},
+                             stop);
         }
         if (done && request.wet_spots) {
             done = writer.write(

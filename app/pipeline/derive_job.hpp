@@ -16,7 +16,8 @@ struct DeriveRequest {
     std::filesystem::path dem;
     std::filesystem::path output;  ///< folder; empty: the DEM's
     std::vector<Derivative> derivatives;
-    bool flow_accumulation = false;
+    bool flow_accumulation = false;       ///< by D8
+    bool flow_accumulation_dinf = false;  ///< by D-infinity
     bool wet_spots = false;
     DerivativeOptions options;
 };

@@ -163,6 +163,7 @@ Result<InterpolatedGrid> gridOf(SurfaceInput input, GroundTriangles ground, cons
     PartialProgress fitting(progress, 0.0, 0.5), gridding(progress, 0.5, 1.0);
     const auto surface = SurfaceModel::fit(input, std::move(ground), method, options, fitting, stop);
     if (!surface) return tl::unexpected(surface.error());
+    if (method == InterpolationMethod::Linear) input = {};  // the triangles hold all of it
     return surface->grid(geometry, gridding, stop);
 }
 

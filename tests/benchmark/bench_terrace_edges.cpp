@@ -140,21 +140,26 @@ T must(Result<T> result) {
 /// Squared errors near risers over all seeds, by spread and noise, and the worst of elsewhere.
 struct Summary {
     struct Sums {
-        double before = 0.0, after = 0.0;
+        double before = 0.0, after = 0.0, noise = 0.0;
     };
     std::map<std::pair<std::string, double>, Sums> near;
     double worst_elsewhere = 0.0;
 
-    void add(const std::string& spread, double noise_m, const Errors& before, const Errors& after) {
+    void add(const std::string& spread, double noise_m, const Errors& before, const Errors& after,
+             const Errors& noise) {
         const auto cells = static_cast<double>(before.near_cells);
+        near[{spread, noise_m}].noise += cells * noise.near * noise.near;
         near[{spread, noise_m}].before += cells * before.near * before.near;
         near[{spread, noise_m}].after += cells * after.near * after.near;
     }
     void print() const {
-        fmt::print("\nTerraces, all seeds: RMSE within 1 m of a riser with edges over that without\n");
+        fmt::print(
+            "\nTerraces, all seeds: RMSE within 1 m of a riser with edges over that without, and the part "
+            "of\n"
+            "the latter that is the points' noise alone, which no edge takes away\n");
         for (const auto& [key, sums] : near) {
-            fmt::print("{:<12}{:>5.2f}{:>8.3f}\n", key.first, key.second,
-                       std::sqrt(sums.after / sums.before));
+            fmt::print("{:<12}{:>5.2f}{:>8.3f}{:>8.3f}\n", key.first, key.second,
+                       std::sqrt(sums.after / sums.before), std::sqrt(sums.noise / sums.before));
         }
         fmt::print("All terrains, worst ratio elsewhere: {:.3f}\n", worst_elsewhere);
     }
@@ -174,7 +179,13 @@ void measure(Summary& summary, SimulatedTerrain kind, const std::string& spread,
     const ElevationGrid before = must(rasterize(plain.mesh(), g, progress, {}));
     const ElevationGrid after = must(rasterize(edged.groundMesh(), g, progress, {}));
     const Errors a = errorsOf(before, after, truth, near), b = errorsOf(after, before, truth, near);
-    if (kind == SimulatedTerrain::TerracedOrchard) summary.add(spread, noise_m, a, b);
+    // The same points without the ground under them.
+    TriangleMesh noise_alone = plain.mesh();
+    for (Eigen::Vector3d& vertex : noise_alone.vertices_m) vertex.z() -= truth(vertex.x(), vertex.y());
+    const ElevationGrid noise = must(rasterize(noise_alone, g, progress, {}));
+    const Errors c = errorsOf(
+        noise, after, [](double, double) { return 0.0; }, near);
+    if (kind == SimulatedTerrain::TerracedOrchard) summary.add(spread, noise_m, a, b, c);
     summary.worst_elsewhere = std::max(summary.worst_elsewhere, b.elsewhere / a.elsewhere);
     double length_m = 0.0, sigma = 0.0;
     for (const TerraceEdge& edge : found.edges) {

@@ -97,17 +97,19 @@ TEST(ContourCommand, DrawsTheLevelsOfAHill) {
 TEST(DeriveCommand, MakesEveryRaster) {
     const TemporaryFolder scratch;
     const std::string dem = hill(scratch / "dem.tif");
-    const auto outcome = terrawalk({"derive", dem, "-o", (scratch / "made").string(), "--slope", "--aspect",
-                                    "--hillshade", "--curvature", "--roughness", "--flow-accumulation",
-                                    "--wet-spots", "--slope-unit", "percent", "--json"});
+    const auto outcome =
+        terrawalk({"derive", dem, "-o", (scratch / "made").string(), "--slope", "--aspect", "--hillshade",
+                   "--curvature", "--roughness", "--flow-accumulation", "--flow-accumulation-dinf",
+                   "--wet-spots", "--slope-unit", "percent", "--json"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_EQ(json::parse(outcome.out).at("files").size(), 9U);
+    EXPECT_EQ(json::parse(outcome.out).at("files").size(), 10U);
     EXPECT_NEAR(read(scratch / "made/dem_slope.tif").at(10, 10), 100.0 * std::hypot(0.1, 0.05), 1e-3);
     EXPECT_NEAR(read(scratch / "made/dem_aspect.tif").at(10, 10), 180.0 + std::atan2(2.0, 1.0) * 180.0 / M_PI,
                 1e-2);
     EXPECT_NEAR(read(scratch / "made/dem_roughness.tif").at(10, 10), 0.3, 1e-5);
     EXPECT_EQ(read(scratch / "made/dem_wet_spots.tif").at(10, 10), 0.0F);
     EXPECT_GT(read(scratch / "made/dem_flow_accumulation.tif").at(29, 0), 10.0F);
+    EXPECT_GT(read(scratch / "made/dem_flow_accumulation_dinf.tif").at(29, 0), 10.0F);
     const GDALDatasetUniquePtr slope(GDALDataset::Open((scratch / "made/dem_slope.tif").c_str()));
     ASSERT_NE(slope, nullptr);
     EXPECT_STREQ(slope->GetRasterBand(1)->GetUnitType(), "percent");

@@ -48,6 +48,33 @@ TEST(PointTable, TakesTheFirstThreeColumnsWithoutHeaderAndSaysSo) {
     }
 }
 
+TEST(PointTable, TakesALineOfAnyFormForTheSamePoint) {
+    // Short decimals have a way of their own; blanks, quotation marks, exponents and long numbers another.
+    const Eigen::Vector3d point(745610.1234, -2565710.5, 38.0625);
+    for (const std::string line : {"7,745610.1234,a,-2565710.5,38.0625,0.25,rest",
+                                   " 7 , 745610.1234 , a , -2565710.5 , 38.0625 , 0.25",
+                                   "7,\"745610.1234\",a,\"-2565710.5\",38.0625,0.25", "#7,745610.1234",
+                                   " #7,745610.1234,a,1,2,3", "7,7.456101234e5,a,-2565710.5,+38.0625,0.25,,,",
+                                   ",745610.12340000000000000000,,-2565710.5,38.0625,.25",
+                                   "7,745610.1234,a,-2565710.5,38.0625,0.25"}) {
+        for (const std::string end : {"\n", "\r\n", "\r", ""}) {
+            const auto points =
+                readText("id,x,remark,y,z,sigma_z\n7,1,,2,3,4" + std::string("\n") + line + end);
+            ASSERT_TRUE(points) << line << points.error().text();
+            ASSERT_EQ(points->points.size(), line.find('#') < 2 ? 1U : 2U) << line;
+            if (line.find('#') < 2) continue;
+            EXPECT_EQ(points->points[1], point) << line;
+            EXPECT_EQ(points->sigmas[1], 0.25) << line;
+        }
+    }
+    for (const std::string line : {"7,1,a,2", "7,1,a,2,3", "7,1,a,2,3,", "7,1,a,2,3,-1", "7,1.2.3,a,2,3,1",
+                                   "7,1x,a,2,3,1", "7,1,a,2,-,1"}) {
+        const auto points = readText("id,x,remark,y,z,sigma_z\n7,1,,2,3,4\n" + line + "\n7,1,,2,3,4\n");
+        ASSERT_FALSE(points) << line;
+        EXPECT_THAT(points.error().text(), HasSubstr("points.csv:3")) << line;
+    }
+}
+
 TEST(PointTable, NamesTheLineOfWhatIsWrong) {
     EXPECT_THAT(readText("x,y,z\n1,2,3\n1,2\n").error().text(), HasSubstr("points.csv:3"));
     EXPECT_THAT(readText("x,y,z\n1,2,three\n").error().text(), HasSubstr(":2: \"three\" is no number"));

@@ -13,13 +13,17 @@
 #include "io/read_points.hpp"
 #include "io/write_exchange.hpp"
 #include "io/write_products.hpp"
+#include "tests/support/exchange_example.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace terrawalk {
 namespace {
 
 using test::bytesOf;
+using test::originIn;
+using test::somePoints;
 using test::TemporaryFolder;
+using test::terraces;
 using test::writeBytes;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -34,54 +38,11 @@ T numberAt(const std::string& bytes, std::size_t offset) {
     return value;
 }
 
-/// Terraces at UTM coordinates, some hundred metres wide.
-TriangleMesh terraces() {
-    TriangleMesh mesh;
-    constexpr std::uint32_t kSide = 12;
-    for (std::uint32_t row = 0; row < kSide; ++row) {
-        for (std::uint32_t column = 0; column < kSide; ++column) {
-            mesh.vertices_m.emplace_back(745000.12341 + 9.7 * column, 2565000.65433 + 8.3 * row,
-                                         38.0 + 1.5 * (row / 3) + 0.0137 * column);
-        }
-    }
-    for (std::uint32_t row = 0; row + 1 < kSide; ++row) {
-        for (std::uint32_t column = 0; column + 1 < kSide; ++column) {
-            const std::uint32_t a = row * kSide + column;
-            mesh.triangles.push_back({a, a + 1, a + kSide});
-            mesh.triangles.push_back({a + 1, a + kSide + 1, a + kSide});
-        }
-    }
-    return mesh;
-}
-
 ExchangeDescription description() {
     const auto projection =
         MapProjection::create(LocalFrame({23.182753, 113.399795, 38.0}), "EPSG:32649", "local");
     EXPECT_TRUE(projection);
     return {projection->wkt2(), projection->name(), "North <terrace> & \"more\"", "Terrawalk test"};
-}
-
-MapPoints somePoints() {
-    MapPoints points;
-    points.run_ids = {"F01", "S,01"};
-    for (std::uint32_t i = 0; i < 500; ++i) {
-        MapPoint point;
-        point.map_m = {745645.33188 + 0.731 * i, 2565768.06474 - 0.377 * i, 38.12345 + 0.01 * std::sin(i)};
-        point.sigma_u_m = 0.02 + 0.0001 * i;
-        point.time_s = 0.2 * i;
-        point.run = i % 2;
-        point.state = i % 5 == 0 ? GroundPointState::Spike : GroundPointState::Used;
-        points.points.push_back(point);
-    }
-    return points;
-}
-
-Eigen::Vector3d originIn(const std::string& text) {
-    std::istringstream words(text.substr(text.rfind("origin_m ") + 9));
-    Eigen::Vector3d origin;
-    words >> origin.x() >> origin.y() >> origin.z();
-    EXPECT_FALSE(words.fail());
-    return origin;
 }
 
 TEST(WriteStl, HoldsEveryTriangleWithItsNormal) {

@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
+#include <pcl/filters/radius_outlier_removal.h>
+#include <pcl/filters/statistical_outlier_removal.h>
+#include <pcl/point_types.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 
@@ -144,6 +148,91 @@ TEST(PointCleaning, DoesNotDependOnOrderOrThreadsAndCanBeTakenBack) {
         EXPECT_EQ((*again)[i].state, (*expected)[i].state) << i;
         EXPECT_EQ(undone[i].state, points[i].state);
         EXPECT_EQ((*expected)[i].enu_m, points[i].enu_m);
+    }
+}
+
+/// The cloud that cleaning makes of points whose least coordinates are zero and that are floats.
+pcl::PointCloud<pcl::PointXYZ>::Ptr cloudOf(const std::vector<GroundPoint>& points) {
+    auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+    for (const GroundPoint& point : points) {
+        const Eigen::Vector3f p = point.enu_m.cast<float>();
+        cloud->push_back({p.x(), p.y(), p.z()});
+    }
+    return cloud;
+}
+
+TEST(PointCleaning, TakesTheOutliersThatPclsOwnFiltersTake) {
+    RandomNumbers random(7);
+    std::vector<GroundPoint> points{pointAt(0.0, 0.0, 0.0)};
+    for (int i = 0; i < 6000; ++i) {
+        // Clusters of all densities, and some points alone.
+        const double side_m = i % 3 == 0 ? 60.0 : i % 3 == 1 ? 20.0 : 5.0;
+        const auto coordinate = [&](double least, double most) {
+            return double{static_cast<float>(random.uniform(least, most))};
+        };
+        points.push_back(
+            pointAt(coordinate(0.0, side_m), coordinate(0.0, side_m), coordinate(0.0, 0.1 * side_m)));
+    }
+    const auto cloud = cloudOf(points);
+    const auto compare = [&](pcl::FilterIndices<pcl::PointXYZ>& filter, const PointCleaningOptions& options,
+                             GroundPointState state) {
+        filter.setInputCloud(cloud);
+        pcl::Indices kept;
+        filter.filter(kept);
+        std::vector<bool> expected(points.size(), true);
+        for (const pcl::index_t i : kept) expected[static_cast<std::size_t>(i)] = false;
+        const auto cleaned = clean(points, options);
+        ASSERT_TRUE(cleaned);
+        ASSERT_GT(count(*cleaned, state), 20U);
+        ASSERT_LT(count(*cleaned, state), points.size() / 2);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            EXPECT_EQ((*cleaned)[i].state == state, expected[i]) << i;
+        }
+    };
+    PointCleaningOptions statistical;
+    statistical.statistical = {true, 8, 2.0};
+    pcl::StatisticalOutlierRemoval<pcl::PointXYZ> by_distance;
+    by_distance.setMeanK(8);
+    by_distance.setStddevMulThresh(2.0);
+    compare(by_distance, statistical, GroundPointState::StatisticalOutlier);
+    PointCleaningOptions radius;
+    radius.radius = {true, 1.5, 3};
+    pcl::RadiusOutlierRemoval<pcl::PointXYZ> by_radius;
+    by_radius.setRadiusSearch(1.5);
+    by_radius.setMinNeighborsInRadius(3);
+    compare(by_radius, radius, GroundPointState::Isolated);
+}
+
+/// Asks to stop as soon as a step has begun to report.
+class StopsAtOnce : public Progress {
+  public:
+    void report(double, std::string_view) override {
+        ++reports;
+        stop.request_stop();
+    }
+    void message(Severity, std::string_view) override {}
+    std::stop_source stop;
+    std::atomic<int> reports = 0;
+};
+
+TEST(PointCleaning, OutlierFiltersStopInTheMiddle) {
+    const std::vector<GroundPoint> points = [] {
+        RandomNumbers random(8);
+        std::vector<GroundPoint> many;
+        for (int i = 0; i < 100'000; ++i) {
+            many.push_back(pointAt(random.uniform(0.0, 200.0), random.uniform(0.0, 200.0), 0.0));
+        }
+        return many;
+    }();
+    PointCleaningOptions statistical, radius;
+    statistical.statistical.use = true;
+    radius.radius.use = true;
+    for (const PointCleaningOptions& options : {statistical, radius}) {
+        StopsAtOnce progress;
+        const auto cleaned = cleanGroundPoints(points, options, progress, progress.stop.get_token());
+        ASSERT_FALSE(cleaned);
+        EXPECT_EQ(cleaned.error().kind, ErrorKind::Cancelled);
+        EXPECT_LT(progress.reports, 50) << "of about a hundred blocks";
     }
 }
 

@@ -165,7 +165,7 @@ TEST(TerrainDerivatives, AreTheSameWithAnyNumberOfThreads) {
 
 Drainage drained(const ElevationGrid& grid) {
     SilentProgress silent;
-    auto result = drainageOf(grid, silent, {});
+    auto result = drainageOf(grid, {FlowRouting::D8, FlowRouting::DInfinity}, silent, {});
     EXPECT_TRUE(result);
     return std::move(*result);
 }
@@ -175,7 +175,9 @@ TEST(Drainage, OfAPlaneGathersDownTheSlope) {
     const Drainage water = drained(plane);
     for (std::size_t row = 0; row < 8; ++row) {
         for (std::size_t column = 0; column < 12; ++column) {
-            EXPECT_FLOAT_EQ(water.accumulation.at(row, column), 0.25F * static_cast<float>(12 - column));
+            for (const ElevationGrid& area : water.accumulations) {
+                EXPECT_FLOAT_EQ(area.at(row, column), 0.25F * static_cast<float>(12 - column));
+            }
             EXPECT_EQ(water.wet_depth.at(row, column), 0.0F);
         }
     }
@@ -199,7 +201,7 @@ TEST(Drainage, ABowlFillsToItsLowestRim) {
             EXPECT_NEAR(water.wet_depth.at(row, column), std::max(0.0, spill - height), 1e-5);
         }
     }
-    for (const float area : water.accumulation.heights_m) greatest = std::max(greatest, area);
+    for (const float area : water.accumulations[0].heights_m) greatest = std::max(greatest, area);
     EXPECT_GT(greatest, 0.5F * 21 * 21) << "the bowl leaves through one cell";
 }
 
@@ -250,9 +252,9 @@ TEST(Drainage, FillsAsTheSlowMethodDoesAndLosesNoWater) {
         ASSERT_EQ(std::isnan(water.wet_depth.heights_m[i]), std::isnan(grid.heights_m[i]));
         if (std::isnan(grid.heights_m[i])) continue;
         EXPECT_NEAR(water.wet_depth.heights_m[i], slow[i] - grid.heights_m[i], 1e-6);
-        EXPECT_GE(water.accumulation.heights_m[i], 1.0F);
+        EXPECT_GE(water.accumulations[0].heights_m[i], 1.0F);
         known += 1.0;
-        greatest = std::max(greatest, double{water.accumulation.heights_m[i]});
+        greatest = std::max(greatest, double{water.accumulations[0].heights_m[i]});
     }
     EXPECT_LE(greatest, known);
     EXPECT_GT(greatest, 10.0);
@@ -266,10 +268,88 @@ TEST(Drainage, WaterOfAFlatLeavesIt) {
     // The 56 cells of the edge drain to the outside: together they hold every cell.
     double out = 0.0;
     for (std::size_t i = 0; i < 15; ++i) {
-        out += water.accumulation.at(0, i) + water.accumulation.at(14, i);
-        if (i > 0 && i < 14) out += water.accumulation.at(i, 0) + water.accumulation.at(i, 14);
+        out += water.accumulations[0].at(0, i) + water.accumulations[0].at(14, i);
+        if (i > 0 && i < 14) out += water.accumulations[0].at(i, 0) + water.accumulations[0].at(i, 14);
     }
     EXPECT_DOUBLE_EQ(out, 225.0);
+}
+
+TEST(DInfinity, SplitsWaterByTheAngleBetweenTwoNeighbours) {
+    // Falls to the west by 1 and to the south by tan(a) in a cell: a / 45 degrees of the water goes
+    // southwest.
+    const double angle_rad = radians(20.0), part = 20.0 / 45.0;
+    const ElevationGrid plane =
+        gridOf(40, 40, 1.0, [&](double x, double y) { return x + std::tan(angle_rad) * y; });
+    const ElevationGrid area = drained(plane).accumulations[1];
+    // Along the eastern rim water comes from nowhere, in the second column from one cell, and so on.
+    for (std::size_t row = 20; row < 39; ++row) {
+        for (std::size_t column = 30; column < 40; ++column) {
+            EXPECT_NEAR(area.at(row, column), 40.0 - static_cast<double>(column), 1e-3);
+        }
+    }
+    // Nothing comes from the north to the first row, and only the straight part from the east.
+    EXPECT_NEAR(area.at(0, 38), 1.0 + (1.0 - part), 1e-5);
+    EXPECT_NEAR(area.at(0, 37), 1.0 + (1.0 - part) * (2.0 - part), 1e-5);
+    EXPECT_NEAR(area.at(1, 38), 2.0, 1e-5);
+}
+
+/// Relative spread of the area on a ring about the middle, and its mean there.
+std::pair<double, double> onRing(const ElevationGrid& area, double middle, double radius) {
+    double n = 0.0, sum = 0.0, squares = 0.0;
+    for (std::size_t i = 0; i < area.heights_m.size(); ++i) {
+        const double x = area.geometry.centreX(i % area.geometry.columns) - middle;
+        const double y = area.geometry.centreY(i / area.geometry.columns) - middle;
+        if (std::abs(std::hypot(x, y) - radius) > 2.0) continue;
+        n += 1.0;
+        sum += area.heights_m[i];
+        squares += double{area.heights_m[i]} * area.heights_m[i];
+    }
+    return {std::sqrt(squares / n - sum * sum / (n * n)) / (sum / n), sum / n};
+}
+
+TEST(DInfinity, RunsOffAConeWithoutStripes) {
+    const double middle = 60.5;
+    const ElevationGrid cone =
+        gridOf(121, 121, 1.0, [&](double x, double y) { return -std::hypot(x - middle, y - middle); });
+    const Drainage water = drained(cone);
+    const auto [stripes, d8_mean] = onRing(water.accumulations[0], middle, 45.0);
+    const auto [spread, mean] = onRing(water.accumulations[1], middle, 45.0);
+    // Over each metre of a circle runs the water of half a radius of ground. Where it runs at an angle of up
+    // to 45 degrees to an axis, it crosses the cells of a column, which are a metre apart along that column:
+    // the radius over two times the cosine. Its mean over the angles has the factor sin(45) / (pi / 4), its
+    // spread is 0.097; the ring is 4 m wide.
+    EXPECT_NEAR(mean, 22.5 * std::sin(0.25 * M_PI) / (0.25 * M_PI), 0.02 * 20.3);
+    EXPECT_LT(spread, 0.12);
+    EXPECT_NEAR(d8_mean, mean, 0.5 * mean) << "as much water, in stripes";
+    EXPECT_GT(stripes, 3.0 * spread);
+}
+
+TEST(DInfinity, LosesNoWaterOfAFunnelOrOfRoughGround) {
+    std::mt19937 random(12);
+    std::uniform_real_distribution<double> noise(0.0, 1.0);
+    ElevationGrid funnel =
+        gridOf(61, 61, 1.0, [](double x, double y) { return std::hypot(x - 30.5, y - 30.5); });
+    funnel.heights_m[30 * 61 + 30] = kNoHeight;  // the hole that everything runs into
+    const ElevationGrid area = drained(funnel).accumulations[1];
+    double into_hole = 0.0;
+    for (const auto& [row, column] :
+         {std::pair{29, 29}, {29, 30}, {29, 31}, {30, 29}, {30, 31}, {31, 29}, {31, 30}, {31, 31}}) {
+        into_hole += area.at(static_cast<std::size_t>(row), static_cast<std::size_t>(column));
+    }
+    // Diagonal cells about the hole still hand their water to those that lie nearer to it.
+    EXPECT_GE(into_hole, 61.0 * 61.0 - 1.0 - 1e-2);
+
+    const ElevationGrid rough =
+        gridOf(50, 50, 1.0, [&](double x, double y) { return 0.02 * x + 0.01 * y + noise(random); });
+    for (const ElevationGrid& a : drained(rough).accumulations) {
+        double greatest = 0.0;
+        for (const float value : a.heights_m) {
+            EXPECT_GE(value, 1.0F);
+            greatest = std::max(greatest, double{value});
+        }
+        EXPECT_LE(greatest, 2500.0);
+        EXPECT_GT(greatest, 50.0);
+    }
 }
 
 TEST(TerrainAnalysis, StopsWhenAskedTo) {
@@ -280,7 +360,7 @@ TEST(TerrainAnalysis, StopsWhenAskedTo) {
     const auto slope = derivativeOf(grid, Derivative::Slope, {}, silent, stop.get_token());
     ASSERT_FALSE(slope);
     EXPECT_EQ(slope.error().kind, ErrorKind::Cancelled);
-    const auto water = drainageOf(grid, silent, stop.get_token());
+    const auto water = drainageOf(grid, {FlowRouting::D8}, silent, stop.get_token());
     ASSERT_FALSE(water);
     EXPECT_EQ(water.error().kind, ErrorKind::Cancelled);
 }
