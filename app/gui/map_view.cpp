@@ -47,7 +47,9 @@ double contourInterval(const Products& products) {
 
 }  // namespace
 
-MapView::MapView(Selection& selection, QWidget* parent) : QWidget(parent), selection_(selection) {
+MapView::MapView(ViewState& state, Selection& selection, QWidget* parent)
+    : QWidget(parent), state_(state), selection_(selection) {
+    scene_.shown = state_.now();
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
     setMinimumSize(320, 240);
@@ -64,6 +66,7 @@ MapView::MapView(Selection& selection, QWidget* parent) : QWidget(parent), selec
         scene_.contours = contour_watcher_.result();
         update();
     });
+    connect(&state_, &ViewState::changed, this, &MapView::followState);
     connect(&selection_, &Selection::changed, this, &MapView::followSelection);
 }
 
@@ -90,14 +93,15 @@ void MapView::colourLayer() {
         layer_watcher_.setFuture({});
         return;
     }
-    layer_watcher_.setFuture(QtConcurrent::run([products = scene_.products, layer = layer_] {
-        return std::make_shared<const RasterPicture>(rasterPicture(*products, layer));
+    layer_watcher_.setFuture(QtConcurrent::run([products = scene_.products, shown = scene_.shown] {
+        return std::make_shared<const RasterPicture>(
+            rasterPicture(*products, shown.layer, shown.change.get()));
     }));
 }
 
 void MapView::makeContours() {
     scene_.contours.reset();
-    if (!scene_.products || !contours_wanted_) {
+    if (!scene_.products || !scene_.shown.contours) {
         contour_watcher_.setFuture({});
         return;
     }
@@ -109,48 +113,10 @@ void MapView::makeContours() {
     }));
 }
 
-void MapView::setLayer(RasterLayer layer) {
-    if (layer == layer_) return;
-    layer_ = layer;
-    colourLayer();
-}
-
-void MapView::setColouring(TrackColouring colouring) {
-    scene_.colouring = colouring;
-    update();
-}
-
-void MapView::toggle(QSet<QString>& hidden, const QString& name, bool visible) {
-    if (visible) {
-        hidden.remove(name);
-    } else {
-        hidden.insert(name);
-    }
-    update();
-}
-
-void MapView::setRunVisible(const QString& run, bool visible) {
-    toggle(scene_.hidden_runs, run, visible);
-}
-
-void MapView::setMarkVisible(const QString& mark, bool visible) {
-    toggle(scene_.hidden_marks, mark, visible);
-}
-
-void MapView::setEdgesVisible(bool visible) {
-    scene_.show_edges = visible;
-    update();
-}
-
-void MapView::setContoursVisible(bool visible) {
-    if (visible == contours_wanted_) return;
-    contours_wanted_ = visible;
-    makeContours();
-    update();
-}
-
-void MapView::setEdits(const SurveyEdits& edits) {
-    scene_.edits = edits;
+void MapView::followState() {
+    const ViewChoice before = std::exchange(scene_.shown, state_.now());
+    if (before.layer != scene_.shown.layer || before.change != scene_.shown.change) colourLayer();
+    if (before.contours != scene_.shown.contours) makeContours();
     update();
 }
 
@@ -203,6 +169,7 @@ void MapView::paintEvent(QPaintEvent*) {
     if (scene_.raster) drawRaster(painter, *scene_.raster, transform_);
     drawContours(painter, scene_, transform_, palette());
     drawTerraceEdges(painter, scene_, transform_);
+    drawPoints(painter, scene_, transform_);
     drawTracks(painter, scene_, transform_);
     drawMarks(painter, scene_, transform_, palette());
     drawEdits(painter, scene_, transform_, palette());

@@ -28,18 +28,12 @@ enum class MapTool {
 class MapView : public QWidget {
     Q_OBJECT
   public:
-    explicit MapView(Selection& selection, QWidget* parent = nullptr);
+    /// Both must outlive the view.
+    MapView(ViewState& state, Selection& selection, QWidget* parent = nullptr);
     ~MapView() override;
 
     /// Shows a survey, and results where there are some; where the place is another, all of it comes in view.
     void show(std::shared_ptr<const SurveyMap> survey, std::shared_ptr<const Products> products);
-    void setLayer(RasterLayer layer);
-    void setColouring(TrackColouring colouring);
-    void setRunVisible(const QString& run, bool visible);
-    void setMarkVisible(const QString& mark, bool visible);
-    void setEdgesVisible(bool visible);
-    void setContoursVisible(bool visible);
-    void setEdits(const SurveyEdits& edits);
     void setTool(MapTool tool);
     void fit();
     void centreOn(QPointF map_m);
@@ -47,7 +41,6 @@ class MapView : public QWidget {
 
     [[nodiscard]] const MapScene& scene() const { return scene_; }
     [[nodiscard]] const MapTransform& transform() const { return transform_; }
-    [[nodiscard]] RasterLayer layer() const { return layer_; }
     [[nodiscard]] MapTool tool() const { return tool_; }
     /// Whether the layer that was asked for is still being coloured, or contours are being made.
     [[nodiscard]] bool preparing() const {
@@ -77,7 +70,7 @@ class MapView : public QWidget {
   private:
     void colourLayer();
     void makeContours();
-    void toggle(QSet<QString>& hidden, const QString& name, bool visible);
+    void followState();
     void followSelection();
     void moveBy(QPointF by_px);
     void click(QPointF screen_px);
@@ -86,12 +79,11 @@ class MapView : public QWidget {
     void finishLine();
     [[nodiscard]] bool draws() const { return tool_ != MapTool::Pan && tool_ != MapTool::SelectStretch; }
 
+    ViewState& state_;
     Selection& selection_;
     MapScene scene_;
     MapTransform transform_;
-    RasterLayer layer_ = RasterLayer::Height;
     MapTool tool_ = MapTool::Pan;
-    bool contours_wanted_ = false;
     QFutureWatcher<std::shared_ptr<const RasterPicture>> layer_watcher_;
     QFutureWatcher<std::shared_ptr<const std::vector<Contour>>> contour_watcher_;
     std::optional<QPointF> pressed_at_;

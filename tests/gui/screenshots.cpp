@@ -13,6 +13,7 @@
 
 #include "app/gui/desktop.hpp"
 #include "app/gui/language.hpp"
+#include "app/gui/new_survey_dialog.hpp"
 #include "app/gui/report_view.hpp"
 #include "app/gui/terrain_view.hpp"
 #include "app/gui/theme.hpp"
@@ -84,13 +85,21 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
     };
     choose("layers", 1);
     choose("colourings", 5);
-    window.findChild<QAction*>("contours")->setChecked(true);
     camera.shoot("uncertainty");
     choose("layers", 0);
     Q_EMIT window.map().lineDrawn(
         MapTool::Profile, QPolygonF({extent.center() - QPointF(5, 25), extent.center() + QPointF(5, 25)}));
     camera.shoot("profile");
     window.findChild<QDockWidget*>("dock_profile")->hide();
+    // What the surface would be without the adjustment of all runs.
+    session.changeSetting("fusion.method", "ukf");
+    session.process();
+    waitFor([&] { return session.history().size() == 2 && !session.busy(); }, 300000);
+    session.goBackTo(0);
+    session.compareWith(1);
+    waitFor([&] { return !session.busy() && session.viewState().now().change; }, 60000);
+    camera.shoot("change");
+    session.compareWithNothing();
     choose("colourings", 1);
     const MapTrack& track = session.map()->tracks.back();
     const std::size_t n = track.time_s.size();
@@ -111,6 +120,13 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
         camera.shoot(QString("view%1").arg(tab));
     }
     views->setCurrentIndex(0);
+    window.newSurvey({survey + "/logs", survey + "/control.csv"});
+    if (auto* dialog = window.findChild<NewSurveyDialog*>()) {
+        waitFor([&] { return !dialog->reading(); }, 60000);
+        camera.shoot("dialog_new", dialog);
+        dialog->close();
+        QTest::qWait(50);
+    }
     for (const char* name : {"export", "shortcuts", "about"}) {
         window.findChild<QAction*>(name)->trigger();
         QTest::qWait(150);
