@@ -128,6 +128,7 @@ NewSurveyDialog::NewSurveyDialog(QWidget* parent) : QDialog(parent) {
     column->addWidget(buttons);
     connect(&watcher_, &QFutureWatcherBase::finished, this, [this] {
         if (watcher_.future().resultCount() == 0) return;
+        reading_ = false;
         const auto read = watcher_.result();
         if (read) takeDraft(*read);
         check();
@@ -225,6 +226,7 @@ void NewSurveyDialog::addFiles(const QStringList& paths) {
 void NewSurveyDialog::readFiles() {
     stop_.request_stop();
     stop_ = std::stop_source();
+    reading_ = true;
     NewSurveyRequest request;
     request.files = files_;
     watcher_.setFuture(QtConcurrent::run([request, stop = stop_.get_token()] {
@@ -245,6 +247,7 @@ void NewSurveyDialog::takeDraft(SurveyDraft draft) {
     // What a person typed into the fields stays.
     if (!first) {
         draft.name = draft_.name;
+        draft.has_zero_point = draft_.has_zero_point;
         draft.zero_point = draft_.zero_point;
         draft.crs = draft_.crs;
     }
@@ -330,11 +333,14 @@ void NewSurveyDialog::fillFields() {
                                     QSignalBlocker(longitude_), QSignalBlocker(height_),
                                     QSignalBlocker(frame_),     QSignalBlocker(file_)};
     name_->setText(text(draft_.name));
-    latitude_->setText(QString::number(draft_.zero_point.lat_deg, 'f', 9));
-    longitude_->setText(QString::number(draft_.zero_point.lon_deg, 'f', 9));
-    height_->setText(QString::number(draft_.zero_point.h_ell_m, 'f', 3));
+    const auto number = [this](double value, int decimals) {
+        return draft_.has_zero_point ? QString::number(value, 'f', decimals) : QString();
+    };
+    latitude_->setText(number(draft_.zero_point.lat_deg, 9));
+    longitude_->setText(number(draft_.zero_point.lon_deg, 9));
+    height_->setText(number(draft_.zero_point.h_ell_m, 3));
     frame_->clear();
-    const QString zone = text(utmZone(draft_.zero_point));
+    const QString zone = draft_.has_zero_point ? text(utmZone(draft_.zero_point)) : QString();
     if (!zone.isEmpty()) frame_->addItem(zone);
     frame_->addItem(QString());
     frame_->setEditText(text(draft_.crs));
@@ -385,6 +391,7 @@ QString NewSurveyDialog::takeFields() {
     if (!lon) return tr("The longitude is a number from −180 to 180, with a dot.");
     if (!height) return tr("The height is a number of metres from −1000 to 10000, with a dot.");
     draft_.zero_point = {*lat, *lon, *height};
+    draft_.has_zero_point = true;
     return {};
 }
 

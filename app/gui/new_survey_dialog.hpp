@@ -29,7 +29,7 @@ class NewSurveyDialog : public QDialog {
 
     /// Logs, tables of marks, and folders; what was corrected already stays.
     void addFiles(const QStringList& paths);
-    [[nodiscard]] bool reading() const { return watcher_.isRunning(); }
+    [[nodiscard]] bool reading() const { return reading_; }
     /// As the fields stand now.
     [[nodiscard]] const SurveyDraft& draft() const { return draft_; }
 
@@ -73,6 +73,7 @@ class NewSurveyDialog : public QDialog {
     SurveyDraft draft_;
     std::set<std::filesystem::path> corrected_;  ///< logs of runs that a person changed
     bool filling_ = false;
+    bool reading_ = false;  ///< until what was read stands in the table
     QTableWidget* table_ = nullptr;
     QLineEdit* name_ = nullptr;
     QLineEdit* latitude_ = nullptr;

@@ -141,12 +141,14 @@ class Reader {
 
 void placeZeroPoint(const NewSurveyRequest& request, const std::vector<LogOutline>& outlines,
                     SurveyDraft& draft) {
+    draft.has_zero_point = true;
     if (request.zero_point) {
         draft.zero_point = *request.zero_point;
         return;
     }
     const auto guess = guessZeroPoint(outlines);
     if (!guess) {
+        draft.has_zero_point = false;
         draft.notes.emplace_back("no log has positions: say where the zero point is");
         return;
     }
@@ -224,6 +226,10 @@ Result<void> checkDraft(const SurveyDraft& draft) {
     for (std::size_t i = 0; i < draft.runs.size(); ++i) {
         if (auto problem = problemOf(draft, i)) return tl::unexpected(std::move(*problem));
     }
+    if (!draft.has_zero_point) {
+        return usageError("no log has positions, so the zero point is not known",
+                          "say where it is: latitude, longitude and ellipsoidal height");
+    }
     const auto projection =
         MapProjection::create(LocalFrame(draft.zero_point), draft.crs, draft.vertical_datum);
     if (!projection) return tl::unexpected(projection.error());
@@ -239,7 +245,7 @@ Result<SurveyDraft> draftSurvey(const NewSurveyRequest& request, Progress& progr
     Reader reader(request, draft);
     if (auto done = reader.read(progress, stop); !done) return tl::unexpected(done.error());
     placeZeroPoint(request, reader.outlines(), draft);
-    draft.crs = request.crs.value_or(utmZone(draft.zero_point));
+    draft.crs = request.crs.value_or(draft.has_zero_point ? utmZone(draft.zero_point) : "");
     const LocalFrame frame(draft.zero_point);
     for (const LogOutline& outline : reader.outlines()) {
         draft.runs.push_back(guessRun(outline, draft.marks, frame));

@@ -64,6 +64,7 @@ struct DraftRun {
 struct SurveyDraft {
     std::filesystem::path project_file;  ///< to be written; logs and marks lie in its folder or below
     std::string name;
+    bool has_zero_point = false;  ///< said, or guessed
     GeodeticPosition zero_point;
     std::string crs;
     std::string vertical_datum = "local";

@@ -1,5 +1,5 @@
-// Pictures of the window's views for people to look at: screenshots FOLDER [SURVEY]. Needs a display, such as
-// Xvfb's.
+// Pictures of the window's views for people to look at: screenshots FOLDER [SURVEY [ONLY]]. Needs a display,
+// such as Xvfb's. ONLY is a part of the names of those that are made, e.g. dark_1920x1080 or zh.
 #include <QApplication>
 #include <QComboBox>
 #include <QDir>
@@ -53,7 +53,15 @@ class Camera {
     QString suffix_;
 };
 
-void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size, const QString& language) {
+QString suffixOf(Theme theme, QSize size, const QString& language) {
+    return QString("_%1_%2x%3_%4")
+        .arg(theme == Theme::Dark ? "dark" : "light")
+        .arg(size.width())
+        .arg(size.height())
+        .arg(language);
+}
+
+void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size, const QString& suffix) {
     QSettings().clear();
     QSettings().setValue("theme", theme == Theme::Dark ? "dark" : "light");
     applyTheme(theme);
@@ -62,12 +70,7 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
     window.resize(size);
     window.show();
     QTest::qWait(100);
-    Camera camera(window, folder,
-                  QString("_%1_%2x%3_%4")
-                      .arg(theme == Theme::Dark ? "dark" : "light")
-                      .arg(size.width())
-                      .arg(size.height())
-                      .arg(language));
+    Camera camera(window, folder, suffix);
     camera.shoot("start");
     SurveySession& session = window.session();
     window.open(survey);
@@ -149,19 +152,19 @@ int main(int argc, char** argv) {
     QApplication::setOrganizationName("Terrawalk");
     QApplication::setApplicationName("terrawalk-screenshots");
     if (argc < 2) {
-        std::fprintf(stderr, "usage: screenshots FOLDER [SURVEY [quick]]\n");
+        std::fprintf(stderr, "usage: screenshots FOLDER [SURVEY [ONLY]]\n");
         return 2;
     }
     const QDir folder(argv[1]);
     folder.mkpath(".");
     const QString survey = argc > 2 ? argv[2] : TERRAWALK_SOURCE_DIR "/sample_surveys/mango_orchard";
-    const bool quick = argc > 3;
-    for (const QString& language : quick ? QStringList{"en"} : QStringList{"en", "zh"}) {
+    const QString only = argc > 3 ? argv[3] : "";
+    for (const QString& language : {QString("en"), QString("zh")}) {
         applyLanguage(language);
         for (const Theme theme : {Theme::Light, Theme::Dark}) {
-            for (const QSize& size :
-                 quick ? QList<QSize>{{1280, 800}} : QList<QSize>{{1280, 800}, {1920, 1080}}) {
-                shootAll(folder, survey, theme, size, language);
+            for (const QSize& size : {QSize(1280, 800), QSize(1920, 1080)}) {
+                const QString suffix = suffixOf(theme, size, language);
+                if (suffix.contains(only)) shootAll(folder, survey, theme, size, suffix);
             }
         }
     }

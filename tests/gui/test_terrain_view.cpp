@@ -418,7 +418,7 @@ void TestTerrainView::pictureIsTheSameOnAnyNumberOfThreads() {
     TerrainFrame frame = frameOver(scene, ViewFrom::Oblique);
     frame.contour_interval_m = 0.5;
     frame.overlay = std::make_shared<const SceneOverlay>(
-        sceneOverlay(*scene, MapScene{sample_.map, products}, {}, {}, QPalette()));
+        sceneOverlay(*scene, MapScene{sample_.map, products}, {}, QPalette()));
     QThreadPool* pool = QThreadPool::globalInstance();
     const int threads = pool->maxThreadCount();
     pool->setMaxThreadCount(1);

@@ -24,6 +24,7 @@
 #include <QToolButton>
 #include <QTreeView>
 #include <algorithm>
+#include <ctime>
 #include <filesystem>
 #include <functional>
 #include <tuple>
@@ -108,7 +109,12 @@ class WindowTest : public QObject {
     void tabThrough(QWidget& top);
     NewSurveyDialog* newSurveyDialog() const;
     QString looseFiles();
-    [[nodiscard]] qint64 longestSilence(const std::function<bool()>& done);
+    /// The longest turn of the event loop until something is done.
+    struct Silence {
+        double wall_ms = 0.0;
+        double own_ms = 0.0;  ///< in which this thread worked
+    };
+    [[nodiscard]] static Silence longestSilence(const std::function<bool()>& done);
     void openSample();
     void processed();
     [[nodiscard]] QPoint onScreen(const Eigen::Vector3d& map_m) const {
@@ -554,6 +560,9 @@ void WindowTest::droppedLogsAndMarksBecomeASurvey() {
     for (const QFileInfo& file : folder.entryInfoList(QDir::Files))
         urls << QUrl::fromLocalFile(file.filePath());
     data.setUrls(urls);
+    QDragEnterEvent enter(QPoint(100, 100), Qt::CopyAction, &data, Qt::LeftButton, {});
+    QApplication::sendEvent(window_, &enter);
+    QVERIFY(enter.isAccepted());
     QDropEvent drop(QPointF(100, 100), Qt::CopyAction, &data, Qt::LeftButton, {});
     QApplication::sendEvent(window_, &drop);
     NewSurveyDialog* dialog = newSurveyDialog();
@@ -778,6 +787,8 @@ void WindowTest::dialogsCloseAndReopen() {
             QWidget* dialog = QApplication::activeModalWidget();
             QVERIFY2(dialog != nullptr, name);
             QVERIFY(!dialog->windowTitle().isEmpty());
+            // No window manager does it here.
+            QApplication::setActiveWindow(dialog);
             tabThrough(*dialog);
             QTest::keyClick(dialog, Qt::Key_Escape);
             QTRY_VERIFY(QApplication::activeModalWidget() == nullptr);
@@ -950,35 +961,55 @@ void WindowTest::chineseKnowsSettingsStepsAndSentences() {
     QCOMPARE(reportWords("fusing S01"), QString("fusing S01"));
 }
 
-qint64 WindowTest::longestSilence(const std::function<bool()>& done) {
-    qint64 longest_ms = 0;
+WindowTest::Silence WindowTest::longestSilence(const std::function<bool()>& done) {
+    const auto own_ms = [] {
+        timespec now{};
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+        return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+    };
+    Silence longest;
     QElapsedTimer timer;
     while (!done()) {
         timer.start();
+        const double before_ms = own_ms();
         QCoreApplication::processEvents(QEventLoop::AllEvents, 10);
-        longest_ms = std::max(longest_ms, timer.elapsed());
+        longest.wall_ms = std::max(longest.wall_ms, static_cast<double>(timer.nsecsElapsed()) * 1e-6);
+        longest.own_ms = std::max(longest.own_ms, own_ms() - before_ms);
     }
-    return longest_ms;
+    return longest;
 }
 
-// The aim is 50 ms on a quiet machine; tests share theirs, so the limit here only finds what is stuck.
+// The aim is 50 ms. A machine that is shared takes longer by the clock, so the limit is on the time that the
+// window's own thread works in one turn, with room for a slow processor and the virtual screen.
 void WindowTest::orchardNeverSilencesTheWindow() {
-    window_->open(TERRAWALK_SOURCE_DIR "/sample_surveys/mango_orchard");
-    const qint64 opening_ms = longestSilence([this] { return session().survey() && idle(); });
-    QTest::qWait(300);
-    action("process").trigger();
-    const qint64 processing_ms = longestSilence([this] { return session().products() && idle(); });
     auto* terrain = window_->findChild<TerrainView*>();
     bool complete = false;
     connect(terrain, &TerrainView::drawn, this, [&](qulonglong, double, bool all) { complete = all; });
+    const auto measured = [&](const char* what, const std::function<bool()>& done) {
+        const Silence silence = longestSilence(done);
+        qInfo("%s: longest turn %.0f ms by the clock, %.0f ms of work", what, silence.wall_ms,
+              silence.own_ms);
+        return silence.own_ms;
+    };
+    std::vector<double> turns_ms;
+    window_->open(TERRAWALK_SOURCE_DIR "/sample_surveys/mango_orchard");
+    turns_ms.push_back(measured("opening", [this] { return session().survey() && idle(); }));
+    action("process").trigger();
+    turns_ms.push_back(measured("processing", [this] { return session().products() && idle(); }));
+    turns_ms.push_back(measured("map", [this] { return !window_->map().preparing(); }));
     window_->findChild<QTabWidget*>("views")->setCurrentIndex(1);
-    const qint64 terrain_ms = longestSilence([&] { return complete && !terrain->building(); });
+    turns_ms.push_back(measured("3-D, first picture", [&] { return complete && !terrain->building(); }));
     complete = false;
     terrain->viewFrom(ViewFrom::South);
-    const qint64 turned_ms = longestSilence([&] { return complete; });
-    qInfo("longest silence: opening %lld ms, processing %lld ms, 3-D %lld ms, turned to rest %lld ms",
-          opening_ms, processing_ms, terrain_ms, turned_ms);
-    for (const qint64 ms : {opening_ms, processing_ms, terrain_ms, turned_ms}) QVERIFY(ms < 3000);
+    turns_ms.push_back(measured("3-D, last picture at rest", [&] { return complete; }));
+    for (const int tab : {2, 3, 4, 0}) {
+        window_->findChild<QTabWidget*>("views")->setCurrentIndex(tab);
+        QElapsedTimer shown;
+        shown.start();
+        const QByteArray name = QString("tab %1").arg(tab).toUtf8();
+        turns_ms.push_back(measured(name.constData(), [&] { return shown.elapsed() > 500; }));
+    }
+    for (const double ms : turns_ms) QVERIFY2(ms < 250.0, qPrintable(QString::number(ms)));
 }
 
 }  // namespace terrawalk::gui

@@ -173,6 +173,21 @@ TEST(NewSurvey, TakesCorrectionsAndRefusesWhatCannotBe) {
     EXPECT_THAT(unknown.error().text(), HasSubstr("F77"));
 }
 
+TEST(NewSurvey, WithoutPositionsNeedsToBeToldTheZeroPoint) {
+    const test::TemporaryFolder scratch;
+    test::writeBytes(scratch / "walk/S01.csv", "time_s,range_m\n0.0,1.2\n0.2,1.2\n0.4,1.2\n");
+    SilentProgress silent;
+    NewSurveyRequest request{.files = {scratch / "walk"}};
+    const auto refused = makeNewSurvey(request, silent, {});
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().kind, ErrorKind::Usage);
+    EXPECT_THAT(refused.error().text(), HasSubstr("zero point"));
+    request.zero_point = GeodeticPosition{23.18, 113.4, 38.0};
+    const auto made = makeNewSurvey(request, silent, {});
+    ASSERT_TRUE(made.has_value()) << made.error().text();
+    EXPECT_EQ(made->survey.crs, "EPSG:32649");
+}
+
 TEST(NewSurvey, TargetInTheNameOfTheFileWins) {
     const test::TemporaryFolder scratch;
     putLooseFiles(kSamples / "quick_plot", scratch / "walk");
