@@ -129,7 +129,10 @@ double heightOf(const LegendPart& part, double line_px) {
     const double body = part.legend.classes.isEmpty()
                             ? kRampHeight_px + line_px * 0.6
                             : (line_px + 4) * static_cast<double>(part.legend.classes.size());
-    return line_px + 8 + body + line_px * static_cast<double>(part.legend.notes.size()) + 2 * kPadding_px;
+    return line_px + 8 + body +
+           (part.legend.notes.isEmpty() ? 0.0
+                                        : line_px * (0.3 + static_cast<double>(part.legend.notes.size()))) +
+           2 * kPadding_px;
 }
 
 double widthOf(const LegendPart& part, const QFontMetricsF& metrics) {
@@ -177,7 +180,7 @@ void drawLegend(QPainter& painter, const LegendPart& part, const QRectF& box, co
         painter.drawText(QPointF(bar.right() + 8, at + metrics.ascent() * 0.4),
                          sign + value(part.legend.low + share * range, range));
     }
-    y = bar.bottom() + metrics.height() * 0.3;
+    y = bar.bottom() + metrics.height() * 0.6;
     for (const QString& note : part.legend.notes) {
         y += metrics.height();
         painter.drawText(QPointF(left, y), note);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <QFutureWatcher>
+#include <QImage>
+#include <QPalette>
 #include <QWidget>
 #include <memory>
 #include <optional>
@@ -44,7 +46,7 @@ class MapView : public QWidget {
     [[nodiscard]] MapTool tool() const { return tool_; }
     /// Whether the layer that was asked for is still being coloured, or contours are being made.
     [[nodiscard]] bool preparing() const {
-        return layer_watcher_.isRunning() || contour_watcher_.isRunning();
+        return layer_watcher_.isRunning() || contour_watcher_.isRunning() || line_watcher_.isRunning();
     }
 
   Q_SIGNALS:
@@ -70,6 +72,8 @@ class MapView : public QWidget {
   private:
     void colourLayer();
     void makeContours();
+    void paintContours(QPainter& painter);
+    void drawContoursBeside();
     void followState();
     void followSelection();
     void moveBy(QPointF by_px);
@@ -86,6 +90,15 @@ class MapView : public QWidget {
     MapTool tool_ = MapTool::Pan;
     QFutureWatcher<std::shared_ptr<const RasterPicture>> layer_watcher_;
     QFutureWatcher<std::shared_ptr<const std::vector<Contour>>> contour_watcher_;
+    /// Contours as they lie on the screen: thousands of smooth lines take longer than the window may be deaf.
+    struct ContourPicture {
+        std::shared_ptr<const std::vector<Contour>> contours;
+        MapTransform transform;
+        QPalette palette;
+        QImage image;
+    };
+    ContourPicture contour_picture_;
+    QFutureWatcher<ContourPicture> line_watcher_;
     std::optional<QPointF> pressed_at_;
     std::optional<QPointF> dragged_from_;
     std::optional<TrackHit> stretch_from_;

@@ -186,6 +186,7 @@ QWidget* NewSurveyDialog::buildFields() {
     name_ = field("survey_name", tr("Name"));
     form->addRow(tr("Name"), name_);
     auto* zero = new QHBoxLayout;
+    zero->setSpacing(kGrid_px);
     latitude_ = field("latitude", tr("Latitude of the zero point"));
     longitude_ = field("longitude", tr("Longitude of the zero point"));
     height_ = field("height", tr("Ellipsoidal height of the zero point"));

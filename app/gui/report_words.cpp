@@ -257,7 +257,7 @@ Pattern patternOf(const char* source) {
     static const QRegularExpression place("\\\\%\\d");
     // "30 check marks": only a number makes it one.
     const bool count = QString::fromUtf8(source).startsWith("%1 ") && letters < kShortest;
-    expression.replace(place, count ? "(\\d+)" : "(.+?)");
+    expression.replace(place, count ? "(\\d[\\d.]*)" : "(.+?)");
     return {QRegularExpression(QRegularExpression::anchoredPattern(expression)), source, letters};
 }
 

@@ -691,7 +691,7 @@
         </message>
         <message>
             <source>making the surface</source>
-            <translation>生成地表</translation>
+            <translation>生成曲面</translation>
         </message>
         <message>
             <source>processed</source>
@@ -743,7 +743,7 @@
         </message>
         <message>
             <source>looking for terrace edges</source>
-            <translation>查找梯田坎线</translation>
+            <translation>查找梯田边缘</translation>
         </message>
         <message>
             <source>hashing the inputs</source>
@@ -763,7 +763,7 @@
         </message>
         <message>
             <source>the surface</source>
-            <translation>地表</translation>
+            <translation>曲面</translation>
         </message>
         <message>
             <source>the ground points</source>
@@ -783,7 +783,7 @@
         </message>
         <message>
             <source>no check mark was compared</source>
-            <translation>没有检查点参与比较</translation>
+            <translation>没有检核点参与比较</translation>
         </message>
         <message>
             <source>none was measured</source>
@@ -791,7 +791,7 @@
         </message>
         <message>
             <source>no surface was made</source>
-            <translation>没有生成地表</translation>
+            <translation>没有生成曲面</translation>
         </message>
         <message>
             <source>an unknown area</source>
@@ -811,7 +811,7 @@
         </message>
         <message>
             <source>No accuracy can be stated: no check mark could be compared with the product.</source>
-            <translation>无法说明精度：没有检查点能与成果比较。</translation>
+            <translation>无法说明精度：没有检核点能与成果比较。</translation>
         </message>
         <message>
             <source>The survey has no marks measured by total station. Nothing independent says how far the terrain model is from the ground.</source>
@@ -819,11 +819,11 @@
         </message>
         <message>
             <source>No check mark could be compared with the product.</source>
-            <translation>没有检查点能与成果比较。</translation>
+            <translation>没有检核点能与成果比较。</translation>
         </message>
         <message>
             <source>Whether the check marks stand among plants or in the open is not known: the points were not looked through for what stands on the ground, or too few lie near the marks.</source>
-            <translation>不知道检查点在植被中还是开阔地上：没有检查点云中的地面以上物，或附近的点太少。</translation>
+            <translation>不知道检核点在植被中还是开阔地上：没有检核点云中的地面以上物，或附近的点太少。</translation>
         </message>
         <message>
             <source>no GNSS: raw positions are the start and the velocity summed up from there</source>
@@ -831,11 +831,11 @@
         </message>
         <message>
             <source>no known mark to zero the barometer on: it is tied to the median GNSS height of the run</source>
-            <translation>没有可供气压计归零的标志点：取该次行走 GNSS 高程的中位数</translation>
+            <translation>没有可供气压计归零的标志点：取该个航次 GNSS 高程的中位数</translation>
         </message>
         <message>
             <source>no barometer in use: GNSS height is used whatever the fix</source>
-            <translation>未使用气压计：不论解类型都使用 GNSS 高程</translation>
+            <translation>未使用气压计：不论定位状态都使用 GNSS 高程</translation>
         </message>
         <message>
             <source>GNSS height of any fix stands in there</source>
@@ -843,7 +843,7 @@
         </message>
         <message>
             <source>nothing measures height there, the walk is taken to climb little</source>
-            <translation>此处没有高程观测，假定行走起伏很小</translation>
+            <translation>此处没有高程观测，假定航次起伏很小</translation>
         </message>
         <message>
             <source>nothing in the log measures height: it is held near that of the start</source>
@@ -947,11 +947,11 @@
         </message>
         <message>
             <source>%1 check marks</source>
-            <translation>%1 个检查点</translation>
+            <translation>%1 个检核点</translation>
         </message>
         <message>
             <source>%1 check mark</source>
-            <translation>%1 个检查点</translation>
+            <translation>%1 个检核点</translation>
         </message>
         <message>
             <source>%1 control marks</source>
@@ -1027,7 +1027,7 @@
         </message>
         <message>
             <source>Tested with %1 check marks, at least the %2 that the ASPRS Positional Accuracy Standards, Edition 2, ask for. No accuracy class is claimed: that takes a class to test against and check marks on open ground.</source>
-            <translation>用 %1 个检查点检验，不少于 ASPRS 位置精度标准第 2 版要求的 %2 个。不声明精度等级：那需要给定等级和开阔地上的检查点。</translation>
+            <translation>用 %1 个检核点检验，不少于 ASPRS 位置精度标准第 2 版要求的 %2 个。不声明精度等级：那需要给定等级和开阔地上的检核点。</translation>
         </message>
         <message>
             <source>Tested using the reduced number of %1. The ASPRS Positional Accuracy Standards, Edition 2, ask for %2; with fewer, no accuracy class can be claimed.</source>
@@ -1075,11 +1075,11 @@
         </message>
         <message>
             <source>%1 lies outside the surface and could not be compared: %2.</source>
-            <translation>%1 在地表之外，无法比较：%2。</translation>
+            <translation>%1 在曲面之外，无法比较：%2。</translation>
         </message>
         <message>
             <source>%1 lie outside the surface and could not be compared: %2.</source>
-            <translation>%1 在地表之外，无法比较：%2。</translation>
+            <translation>%1 在曲面之外，无法比较：%2。</translation>
         </message>
         <message>
             <source>%1 has no ground point near enough and could not be compared: %2.</source>
@@ -1099,11 +1099,11 @@
         </message>
         <message>
             <source>No check mark was compared. %1 stand in the report apart; errors at marks that may have served alignment or tuning do not certify the product.</source>
-            <translation>没有检查点参与比较。%1 另列于报告中；可能用于对准或调参的标志点上的误差不能证明成果质量。</translation>
+            <translation>没有检核点参与比较。%1 另列于报告中；可能用于对准或调参的标志点上的误差不能证明成果质量。</translation>
         </message>
         <message>
             <source>No check mark was compared, and none of the %1 tells an error that the estimator has not seen.</source>
-            <translation>没有检查点参与比较，%1 中也没有估计器未见过的误差。</translation>
+            <translation>没有检核点参与比较，%1 中也没有估计器未见过的误差。</translation>
         </message>
         <message>
             <source>Standing on %1, the fused position was off by %2 in plan (RMSE). By the NSSDA that is %3 at 95 % confidence.</source>
@@ -1127,7 +1127,7 @@
         </message>
         <message>
             <source>Before fusion there is no surface to compare with: %1.</source>
-            <translation>融合前没有可比较的地表：%1。</translation>
+            <translation>融合前没有可比较的曲面：%1。</translation>
         </message>
         <message>
             <source>The heights have no standard errors: %1.</source>
@@ -1139,11 +1139,11 @@
         </message>
         <message>
             <source>Run %1 has no records for %2 s: the track there is a guess.</source>
-            <translation>行走 %1 有 %2 s 没有记录：该处轨迹是推测的。</translation>
+            <translation>航次 %1 有 %2 s 没有记录：该处轨迹是推测的。</translation>
         </message>
         <message>
             <source>%1 (runs %2)</source>
-            <translation>%1（行走 %2）</translation>
+            <translation>%1（航次 %2）</translation>
         </message>
         <message>
             <source>no epoch while the array stood on %1</source>
@@ -1175,7 +1175,7 @@
         </message>
         <message>
             <source>zero point: mean GNSS position of the ground where %1 of %2 walks start, %3 m apart at most; say where it is if you know it better</source>
-            <translation>零点：%2 次行走中 %1 次起点处地面的 GNSS 平均位置，彼此相距至多 %3 m；如有更准确的坐标请填入</translation>
+            <translation>零点：%2 个航次中 %1 次起点处地面的 GNSS 平均位置，彼此相距至多 %3 m；如有更准确的坐标请填入</translation>
         </message>
         <message>
             <source>%1 is passed over: %2</source>
@@ -1183,23 +1183,23 @@
         </message>
         <message>
             <source>the fixed-point run %1 has no target mark; name the mark, or make it an area walk</source>
-            <translation>定点行走 %1 没有终点标志；请指定标志点，或改为面状行走</translation>
+            <translation>定点航次 %1 没有终点标志；请指定标志点，或改为面积航次</translation>
         </message>
         <message>
             <source>the fixed-point run %1 has no start mark; name the mark, or make it an area walk</source>
-            <translation>定点行走 %1 没有起点标志；请指定标志点，或改为面状行走</translation>
+            <translation>定点航次 %1 没有起点标志；请指定标志点，或改为面积航次</translation>
         </message>
         <message>
             <source>two runs are named %1; give each run its own name</source>
-            <translation>有两次行走都叫 %1；请各起一个名字</translation>
+            <translation>有两个航次都叫 %1；请各起一个名字</translation>
         </message>
         <message>
             <source>%1 cannot be the name of a run; use letters, digits, '-', '_' and '.', the first one no '.'</source>
-            <translation>%1 不能作为行走名；请用字母、数字、“-”、“_”和“.”，且不以“.”开头</translation>
+            <translation>%1 不能作为航次名；请用字母、数字、“-”、“_”和“.”，且不以“.”开头</translation>
         </message>
         <message>
             <source>run %1 names the mark %2, which is not known; correct the name, or give the table with that mark</source>
-            <translation>行走 %1 的标志点 %2 未知；请更正名称，或提供含该点的表</translation>
+            <translation>航次 %1 的标志点 %2 未知；请更正名称，或提供含该点的表</translation>
         </message>
     </context>
     <context>
@@ -1222,7 +1222,7 @@
         </message>
         <message>
             <source>stands tie fixed targets</source>
-            <translation>定点行走的终点也作约束</translation>
+            <translation>定点航次的终点也作约束</translation>
         </message>
         <message>
             <source>unscented alpha</source>
@@ -1758,7 +1758,7 @@
         </message>
         <message>
             <source>fixed point runs</source>
-            <translation>使用定点行走</translation>
+            <translation>使用定点航次</translation>
         </message>
         <message>
             <source>longest edge</source>
@@ -1766,7 +1766,7 @@
         </message>
         <message>
             <source>terrace edges</source>
-            <translation>梯田坎线</translation>
+            <translation>梯田边缘</translation>
         </message>
         <message>
             <source>cross validate</source>
@@ -1982,7 +1982,7 @@
         </message>
         <message>
             <source>runs</source>
-            <translation>剔除的行走</translation>
+            <translation>剔除的航次</translation>
         </message>
         <message>
             <source>marks</source>
@@ -2103,11 +2103,11 @@
         </message>
         <message>
             <source>Tracks by run</source>
-            <translation>轨迹按行走</translation>
+            <translation>轨迹按航次</translation>
         </message>
         <message>
             <source>Tracks by fix</source>
-            <translation>轨迹按解类型</translation>
+            <translation>轨迹按定位状态</translation>
         </message>
         <message>
             <source>Tracks by speed</source>
@@ -2647,11 +2647,11 @@
         </message>
         <message>
             <source>The surface in three dimensions. Drag turns it, a right drag moves it, the wheel comes nearer; a click tells what is known of a place.</source>
-            <translation>三维地表。拖动旋转，右键拖动平移，滚轮拉近；单击查询该处。</translation>
+            <translation>三维曲面。拖动旋转，右键拖动平移，滚轮拉近；单击查询该处。</translation>
         </message>
         <message>
             <source>Plots of the sensors, the fused runs, errors at marks and searches for parameters. Drag along the time axis selects a stretch in all views.</source>
-            <translation>传感器、融合行走、标志点误差和参数搜索的图表。沿时间轴拖动可在所有视图中选中一段。</translation>
+            <translation>传感器、融合航次、标志点误差和参数搜索的图表。沿时间轴拖动可在所有视图中选中一段。</translation>
         </message>
         <message>
             <source>How far the results lie from the marks: figures, groups of errors, what they say and what they cannot say.</source>
@@ -2663,7 +2663,7 @@
         </message>
         <message>
             <source>Runs, marks, edits and results. The box shows or hides a thing in all views; the right button leaves a run or a mark out, or takes an edit back.</source>
-            <translation>行走、标志点、编辑和成果。方框控制在所有视图中显示或隐藏；右键可剔除行走或标志点，或撤回编辑。</translation>
+            <translation>航次、标志点、编辑和成果。方框控制在所有视图中显示或隐藏；右键可剔除航次或标志点，或撤回编辑。</translation>
         </message>
         <message>
             <source>What is known of the place that was clicked: its height, where the error comes from, the nearest hits, and what another pass would give.</source>
@@ -2786,7 +2786,7 @@
         </message>
         <message>
             <source>What the tracks are coloured by: one colour for each run, the GNSS fix, speed, height, or standard errors of the fused track.</source>
-            <translation>轨迹的着色方式：每次行走一种颜色、GNSS 解类型、速度、高程，或融合轨迹的标准差。</translation>
+            <translation>轨迹的着色方式：每个航次一种颜色、GNSS 定位状态、速度、高程，或融合轨迹的标准差。</translation>
         </message>
     </context>
     <context>
@@ -2848,11 +2848,11 @@
         </message>
         <message>
             <source>Runs</source>
-            <translation>行走</translation>
+            <translation>航次</translation>
         </message>
         <message>
             <source>Run</source>
-            <translation>行走</translation>
+            <translation>航次</translation>
         </message>
         <message>
             <source>Log</source>
@@ -2932,11 +2932,11 @@
         </message>
         <message>
             <source>area walk</source>
-            <translation>面状行走</translation>
+            <translation>面积航次</translation>
         </message>
         <message>
             <source>fixed-point run</source>
-            <translation>定点行走</translation>
+            <translation>定点航次</translation>
         </message>
         <message>
             <source>–</source>
@@ -3389,7 +3389,7 @@
         </message>
         <message>
             <source>Terrace edges</source>
-            <translation>梯田坎线</translation>
+            <translation>梯田边缘</translation>
         </message>
         <message>
             <source>Ground</source>
@@ -3949,7 +3949,7 @@
         </message>
         <message>
             <source>What is drawn on the surface, here and on the map</source>
-            <translation>地表上绘制的内容，此处和地图相同</translation>
+            <translation>曲面上绘制的内容，此处和地图相同</translation>
         </message>
     </context>
 </TS>
