@@ -144,8 +144,8 @@ std::string logPath(const Run& run) {
     return fmt::format("logs/{}.csv", run.id);
 }
 
-nlohmann::ordered_json jsonOf(const Run& run) {
-    nlohmann::ordered_json json{{"id", run.id}, {"kind", name(run.kind)}, {"log", logPath(run)}};
+nlohmann::ordered_json jsonOf(const Run& run, const std::string& log) {
+    nlohmann::ordered_json json{{"id", run.id}, {"kind", name(run.kind)}, {"log", log}};
     if (run.start) json["start"] = *run.start;
     if (run.target) json["target"] = *run.target;
     for (const Stop& stop : run.stops) {
@@ -154,7 +154,7 @@ nlohmann::ordered_json jsonOf(const Run& run) {
     return json;
 }
 
-nlohmann::ordered_json jsonOf(const Survey& survey) {
+nlohmann::ordered_json jsonOf(const Survey& survey, const ProjectPaths& paths) {
     nlohmann::ordered_json json{{"format", kProjectFormat},
                                 {"name", survey.name},
                                 {"zero_point",
@@ -163,9 +163,18 @@ nlohmann::ordered_json jsonOf(const Survey& survey) {
                                   {"h_ell_m", survey.zero_point.h_ell_m}}}};
     if (!survey.crs.empty()) json["crs"] = survey.crs;
     json["vertical_datum"] = survey.vertical_datum;
-    if (!survey.marks.empty()) json["control"] = kControlFile;
-    for (const Run& run : survey.runs) json["runs"].push_back(jsonOf(run));
+    if (!paths.control.empty()) json["control"] = paths.control;
+    for (std::size_t i = 0; i < survey.runs.size(); ++i)
+        json["runs"].push_back(jsonOf(survey.runs[i], paths.logs[i]));
     return json;
+}
+
+Result<std::string> projectText(const Survey& survey, const ProjectPaths& paths, const fs::path& blamed) {
+    try {
+        return jsonOf(survey, paths).dump(2) + '\n';
+    } catch (const nlohmann::json::exception& problem) {
+        return badData(fmt::format("cannot write the project: {}", problem.what()), blamed);
+    }
 }
 
 Result<void> checkRunIds(const Survey& survey, const fs::path& folder) {
@@ -210,14 +219,19 @@ Result<void> writeControlMarks(const std::vector<ControlMark>& marks, const fs::
     return writeWhole(text, file);
 }
 
+Result<void> writeProjectFile(const Survey& survey, const ProjectPaths& paths, const fs::path& file) {
+    if (auto checked = checkRunIds(survey, file); !checked) return checked;
+    const auto text = projectText(survey, paths, file);
+    return text ? writeWhole(*text, file) : tl::unexpected(text.error());
+}
+
 Result<void> writeSurvey(const Survey& survey, const fs::path& folder) {
     if (auto checked = checkRunIds(survey, folder); !checked) return checked;
-    std::string project;
-    try {
-        project = jsonOf(survey).dump(2) + '\n';
-    } catch (const nlohmann::json::exception& problem) {
-        return badData(fmt::format("cannot write the project: {}", problem.what()), folder);
-    }
+    ProjectPaths paths{survey.marks.empty() ? std::string() : std::string(kControlFile), {}};
+    for (const Run& run : survey.runs) paths.logs.push_back(logPath(run));
+    // Before anything is written: a name that is no text would leave half a survey.
+    const auto project = projectText(survey, paths, folder);
+    if (!project) return tl::unexpected(project.error());
     std::error_code error;
     fs::create_directory(folder / "logs", error);
     if (error) return systemError("cannot make the folder: " + error.message(), folder / "logs");
@@ -228,7 +242,7 @@ Result<void> writeSurvey(const Survey& survey, const fs::path& folder) {
         if (auto written = writeControlMarks(survey.marks, folder / kControlFile); !written) return written;
     }
     // Last, so that a project file never names what is not there yet.
-    return writeWhole(project, folder / kProjectFileName);
+    return writeWhole(*project, folder / kProjectFileName);
 }
 
 }  // namespace terrawalk

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "survey/result.hpp"
@@ -19,6 +20,14 @@ namespace terrawalk {
 /// Coordinates and sigmas to 0.1 mm.
 [[nodiscard]] Result<void> writeControlMarks(const std::vector<ControlMark>& marks,
                                              const std::filesystem::path& file);
+/// Where a project's files lie, relative to its folder.
+struct ProjectPaths {
+    std::string control;            ///< empty: no marks
+    std::vector<std::string> logs;  ///< one for each run
+};
+/// Writes the project file alone, over one that is there. `Run::log` and the marks are not looked at.
+[[nodiscard]] Result<void> writeProjectFile(const Survey& survey, const ProjectPaths& paths,
+                                            const std::filesystem::path& file);
 /// Writes survey.json, control.csv (when there are marks) and logs/<run>.csv into a folder that exists.
 /// `readSurvey` reads it back.
 [[nodiscard]] Result<void> writeSurvey(const Survey& survey, const std::filesystem::path& folder);

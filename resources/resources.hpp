@@ -6,6 +6,7 @@
 namespace terrawalk::resources {
 
 extern const std::string_view relief_ramp;  ///< CSV: red,green,blue from low to high
+extern const std::string_view diverging_ramp;
 extern const std::string_view sequential_ramp;
 
 }  // namespace terrawalk::resources

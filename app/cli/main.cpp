@@ -17,6 +17,7 @@
 #include "app/cli/analysis_options.hpp"
 #include "app/cli/export_options.hpp"
 #include "app/cli/interrupt.hpp"
+#include "app/cli/new_survey_options.hpp"
 #include "app/cli/simulate_options.hpp"
 #include "app/cli/surface_options.hpp"
 #include "app/cli/terminal_progress.hpp"
@@ -451,6 +452,9 @@ int run(int argc, char** argv) {
     addCommon(*experiment_command, common);
 
     JobCommands jobs(app, common);
+    NewSurveyRequest new_survey;
+    jobs.add("new", "Make a survey.json from array logs and a table of marks", addNewSurveyOptions,
+             new_survey, makeNewSurvey);
     SurfaceRequest surface;
     jobs.add("surface", "Make a DEM from ground points of any origin, by the method that fits them",
              addSurfaceOptions, surface, makeSurface);

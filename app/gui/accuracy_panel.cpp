@@ -34,11 +34,11 @@ QWidget* figureCard(const KeyFigure& figure) {
     auto* column = new QVBoxLayout(card);
     column->setContentsMargins(12, 12, 12, 12);
     column->setSpacing(4);
-    auto* value = new QLabel(text(figure.value));
+    auto* value = new QLabel(reportWords(figure.value));
     value->setObjectName("figure");
     auto* name = new QLabel(reportWords(figure.label));
     name->setWordWrap(true);
-    auto* detail = new QLabel(text(figure.detail));
+    auto* detail = new QLabel(reportWords(figure.detail));
     detail->setObjectName("quiet");
     detail->setWordWrap(true);
     column->addWidget(value);
@@ -65,6 +65,8 @@ void dress(QTableView& table) {
     table.setEditTriggers(QAbstractItemView::NoEditTriggers);
     table.setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     table.setWordWrap(false);
+    // Tab leaves the table; arrow keys move in it.
+    table.setTabKeyNavigation(false);
     table.horizontalHeader()->setHighlightSections(false);
 }
 
@@ -76,7 +78,7 @@ QTableWidgetItem* cell(const QString& words, bool number) {
 
 QString bullets(const std::vector<std::string>& lines) {
     QString html;
-    for (const std::string& line : lines) html += "<li>" + text(line).toHtmlEscaped() + "</li>";
+    for (const std::string& line : lines) html += "<li>" + reportWords(line).toHtmlEscaped() + "</li>";
     return html.isEmpty() ? html : "<ul style='margin-left: -24px'>" + html + "</ul>";
 }
 

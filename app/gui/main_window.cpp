@@ -30,6 +30,7 @@
 #include "app/gui/export_dialog.hpp"
 #include "app/gui/language.hpp"
 #include "app/gui/map_panel.hpp"
+#include "app/gui/new_survey_dialog.hpp"
 #include "app/gui/place_panel.hpp"
 #include "app/gui/plot_canvas.hpp"
 #include "app/gui/plots_view.hpp"
@@ -37,6 +38,7 @@
 #include "app/gui/recent_surveys.hpp"
 #include "app/gui/report_view.hpp"
 #include "app/gui/shortcuts_dialog.hpp"
+#include "app/gui/show_menu.hpp"
 #include "app/gui/start_page.hpp"
 #include "app/gui/steps_panel.hpp"
 #include "app/gui/terrain_view.hpp"
@@ -70,15 +72,6 @@ BreaklineKind kindOf(MapTool tool) {
     }
 }
 
-/// The folder of the last file dialog.
-QString lastFolder() {
-    return QSettings().value("last_folder").toString();
-}
-
-void rememberFolder(const QString& path) {
-    QSettings().setValue("last_folder", QFileInfo(path).absolutePath());
-}
-
 }  // namespace
 
 MainWindow::MainWindow(SurveySession& session, MessageModel& messages, QWidget* parent)
@@ -95,6 +88,16 @@ MainWindow::MainWindow(SurveySession& session, MessageModel& messages, QWidget* 
     questions.settings_file = [this](const QString& title, const QString& folder) {
         return QFileDialog::getOpenFileName(this, title, folder, tr("Settings (*.json);;All files (*)"));
     };
+    questions.settings_target = [this](const QString& title, const QString& folder) {
+        return QFileDialog::getSaveFileName(this, title, folder, tr("Settings (*.json);;All files (*)"));
+    };
+    questions.searches = [this](const QString& title, const QString& folder) {
+        return QFileDialog::getOpenFileName(this, title, folder,
+                                            tr("Tunings and experiments (*.json *.csv);;All files (*)"));
+    };
+    questions.dem = [this](const QString& title, const QString& folder) {
+        return QFileDialog::getOpenFileName(this, title, folder, tr("Rasters (*.tif *.asc);;All files (*)"));
+    };
     buildViews();
     buildDocks();
     buildActions();
@@ -105,6 +108,7 @@ MainWindow::MainWindow(SurveySession& session, MessageModel& messages, QWidget* 
     restoreState(settings.value("window/layout").toByteArray(), kLayoutVersion);
     showSurvey();
     showProducts();
+    plots_->setTuning(session_.tuning());
 }
 
 MainWindow::~MainWindow() = default;
@@ -114,8 +118,8 @@ MapView& MainWindow::map() {
 }
 
 void MainWindow::buildViews() {
-    map_ = new MapPanel(session_.selection());
-    terrain_ = new TerrainView(session_.selection());
+    map_ = new MapPanel(session_.viewState(), session_.selection());
+    terrain_ = new TerrainView(session_.viewState(), session_.selection());
     terrain_->setObjectName("terrain");
     plots_ = new PlotsView(session_.selection());
     plots_->setObjectName("plots");
@@ -140,17 +144,22 @@ void MainWindow::buildViews() {
     pages_->addWidget(views_);
     setCentralWidget(pages_);
     connect(start_, &StartPage::openAsked, this, &MainWindow::askForSurvey);
+    connect(start_, &StartPage::newAsked, this, [this] { newSurvey(); });
     connect(start_, &StartPage::surveyAsked, this, [this](const QString& path) { open(path); });
     connect(start_, &StartPage::sampleAsked, this, [this](const QString& path) { open(path, true); });
     MapView& view = map_->view();
     connect(&view, &MapView::hovered, this, [this](const QString& words) { readout_->setText(words); });
     connect(&view, &MapView::placeAsked, this, &MainWindow::askPlace);
     connect(&view, &MapView::lineDrawn, this, &MainWindow::takeLine);
-    connect(map_, &MapPanel::layerChanged, terrain_, &TerrainView::setLayer);
-    connect(map_, &MapPanel::colouringChanged, terrain_, &TerrainView::setColouring);
     connect(terrain_, &TerrainView::hovered, this,
             [this](const QString& words) { readout_->setText(words); });
     connect(terrain_, &TerrainView::picked, this, &MainWindow::askPlace);
+    connect(plots_, &PlotsView::searchesAsked, this, [this] {
+        const QString file = questions.searches(tr("Tuning or experiment"), lastFolder());
+        if (file.isEmpty()) return;
+        rememberFolder(file);
+        session_.openSearches(file.toStdString());
+    });
     connect(plots_, &PlotsView::excludeAsked, this,
             [this](const TrackStretch& stretch, const QString& sensor) {
                 for (const auto& [value, name] : kEditedSensors) {
@@ -189,15 +198,10 @@ void MainWindow::buildDocks() {
     });
     connect(&tree_model_, &SurveyTreeModel::visibilityChanged, this,
             [this](int kind, const QString& id, bool visible) {
-                if (kind == SurveyTreeModel::RunItem) {
-                    map().setRunVisible(id, visible);
-                    terrain_->setRunVisible(id, visible);
-                }
-                if (kind == SurveyTreeModel::MarkItem) {
-                    map().setMarkVisible(id, visible);
-                    terrain_->setMarkVisible(id, visible);
-                }
-                if (kind == SurveyTreeModel::EdgesItem) map().setEdgesVisible(visible);
+                ViewState& state = session_.viewState();
+                if (kind == SurveyTreeModel::RunItem) state.setRunVisible(id, visible);
+                if (kind == SurveyTreeModel::MarkItem) state.setMarkVisible(id, visible);
+                if (kind == SurveyTreeModel::EdgesItem) state.setShown(&ViewChoice::edges, visible);
             });
     steps_ = new StepsPanel(session_);
     steps_->setMinimumWidth(296);
@@ -248,9 +252,43 @@ QAction* MainWindow::addAction(QMenu& menu, const QString& name, const QString& 
     action->setShortcut(key);
     QString plain = words;
     action->setStatusTip(plain.remove('&').remove("…"));
+    action->setWhatsThis(action->statusTip());
     connect(action, &QAction::triggered, this, run);
     actions_[name] = action;
     return action;
+}
+
+void MainWindow::explain() {
+    const std::pair<QWidget*, QString> parts[] = {
+        {start_, tr("Where to begin: a survey that is there, a new one from loose files, or a sample.")},
+        {&map_->view(), tr("The map. Drag moves it, the wheel zooms about the cursor, a click tells what is "
+                           "there. The tools "
+                           "above measure, select and draw; Escape leaves them.")},
+        {terrain_,
+         tr("The surface in three dimensions. Drag turns it, a right drag moves it, the wheel comes "
+            "nearer; a click tells what is known of a place.")},
+        {plots_, tr("Plots of the sensors, the fused runs, errors at marks and searches for parameters. Drag "
+                    "along the time axis selects a stretch in all views.")},
+        {accuracy_, tr("How far the results lie from the marks: figures, groups of errors, what they say and "
+                       "what they cannot say.")},
+        {report_, tr("The report as it will be printed; save it as PDF or print it here.")},
+        {tree_, tr("Runs, marks, edits and results. The box shows or hides a thing in all views; the right "
+                   "button leaves a run or a mark out, or takes an edit back.")},
+        {place_,
+         tr("What is known of the place that was clicked: its height, where the error comes from, the "
+            "nearest hits, and what another pass would give.")},
+        {steps_,
+         tr("The way from logs to a DEM, from above to below. Each step shows its important settings; "
+            "the others unfold.")},
+        {profile_,
+         tr("Heights along the line that was drawn on the map, with their 95 % band and marks beside "
+            "it.")},
+        {messages_, tr("What the program did and what went wrong, with the cure. Newest below.")}};
+    for (const auto& [widget, words] : parts) widget->setWhatsThis(words);
+    for (QDockWidget* dock : docks_) {
+        dock->setWhatsThis(dock->widget()->whatsThis());
+        dock->toggleViewAction()->setWhatsThis(dock->whatsThis());
+    }
 }
 
 void MainWindow::buildActions() {
@@ -258,12 +296,14 @@ void MainWindow::buildActions() {
     buildEditMenu();
     buildViewMenu();
     buildHelpMenu();
+    explain();
     themeIcons();
 }
 
 void MainWindow::buildFileMenu() {
     QMenu& menu = *menuBar()->addMenu(tr("&Survey"));
     addAction(menu, "open", "open", tr("&Open…"), QKeySequence::Open, [this] { askForSurvey(); });
+    addAction(menu, "new", "new", tr("&New from files…"), QKeySequence::New, [this] { newSurvey(); });
     QMenu* recent = menu.addMenu(tr("Open &recent"));
     connect(recent, &QMenu::aboutToShow, this, [this, recent] {
         recent->clear();
@@ -278,9 +318,13 @@ void MainWindow::buildFileMenu() {
     });
     menu.addSeparator();
     addAction(menu, "save", "save", tr("&Save settings"), QKeySequence::Save, [this] { session_.save(); });
+    addAction(menu, "save_settings_as", "save", tr("Save settings &as…"), QKeySequence::SaveAs,
+              [this] { saveSettingsAs(); });
     addAction(menu, "load_settings", "settings", tr("&Load settings…"), {}, [this] {
         const QString file = questions.settings_file(tr("Load settings"), lastFolder());
-        if (!file.isEmpty()) session_.loadSettings(file.toStdString());
+        if (file.isEmpty()) return;
+        rememberFolder(file);
+        session_.loadSettings(file.toStdString());
     });
     menu.addSeparator();
     addAction(menu, "process", "process", tr("&Process"), QKeySequence(Qt::Key_F5),
@@ -338,6 +382,9 @@ void MainWindow::buildViewMenu() {
                   [this, tab] { views_->setCurrentIndex(tab); });
     }
     menu.addSeparator();
+    menu.addMenu(new ShowMenu(session_.viewState(), &menu));
+    buildCompareMenu(*menu.addMenu(tr("Co&mpare with")));
+    menu.addSeparator();
     for (QDockWidget* dock : docks_) menu.addAction(dock->toggleViewAction());
     menu.addSeparator();
     addAction(menu, "theme", "theme", tr("&Dark or light"), QKeySequence("Ctrl+Shift+D"),
@@ -346,6 +393,46 @@ void MainWindow::buildViewMenu() {
         const bool chinese = preferredLanguage().startsWith("zh");
         Q_EMIT languageAsked(chinese ? "en" : "zh_CN");
     });
+}
+
+void MainWindow::buildCompareMenu(QMenu& menu) {
+    menu.setObjectName("compare");
+    menu.menuAction()->setStatusTip(tr("Shows how the heights changed, as a layer of map and 3-D view"));
+    connect(&menu, &QMenu::aboutToShow, this, [this, &menu] { fillCompareMenu(menu); });
+    fillCompareMenu(menu);
+}
+
+void MainWindow::fillCompareMenu(QMenu& menu) {
+    menu.clear();
+    const bool ready = session_.products() && !session_.busy();
+    const auto& runs = session_.history();
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        if (i == session_.shownRun()) continue;
+        QAction* action = menu.addAction(tr("The run of %1").arg(runs[i].when.toString("HH:mm:ss")));
+        action->setEnabled(ready);
+        connect(action, &QAction::triggered, this, [this, i] { session_.compareWith(i); });
+    }
+    if (menu.isEmpty()) menu.addAction(tr("No other run yet"))->setEnabled(false);
+    menu.addSeparator();
+    QAction* dem = menu.addAction(tr("Another DEM…"));
+    dem->setObjectName("compare_dem");
+    dem->setEnabled(ready);
+    connect(dem, &QAction::triggered, this, [this] {
+        const QString file = questions.dem(tr("Earlier heights of the same ground"), lastFolder());
+        if (file.isEmpty()) return;
+        rememberFolder(file);
+        session_.compareWith(std::filesystem::path(file.toStdString()));
+    });
+    QAction* nothing = menu.addAction(tr("Nothing"));
+    nothing->setEnabled(session_.viewState().now().change != nullptr);
+    connect(nothing, &QAction::triggered, this, [this] { session_.compareWithNothing(); });
+}
+
+void MainWindow::saveSettingsAs() {
+    const QString file = questions.settings_target(tr("Save settings as"), lastFolder());
+    if (file.isEmpty()) return;
+    rememberFolder(file);
+    session_.saveSettingsAs(file.toStdString());
 }
 
 void MainWindow::buildHelpMenu() {
@@ -359,10 +446,11 @@ void MainWindow::buildHelpMenu() {
 void MainWindow::connectSession() {
     connect(&session_, &SurveySession::surveyChanged, this, &MainWindow::showSurvey);
     connect(&session_, &SurveySession::productsChanged, this, &MainWindow::showProducts);
+    connect(&session_, &SurveySession::tuningChanged, this, [this] { plots_->setTuning(session_.tuning()); });
     connect(&session_, &SurveySession::told, this, &MainWindow::say);
     connect(&session_, &SurveySession::savedChanged, this, &MainWindow::showTitle);
     connect(&session_, &SurveySession::settingsChanged, this, [this] {
-        map().setEdits(session_.edits());
+        session_.viewState().setEdits(session_.edits());
         showTree();
         enableActions();
     });
@@ -381,7 +469,9 @@ void MainWindow::enableActions() {
     const bool busy = session_.busy(), open = session_.survey() != nullptr,
                made = session_.products() != nullptr;
     const std::pair<const char*, bool> states[] = {{"open", !busy},
+                                                   {"new", !busy},
                                                    {"save", open},
+                                                   {"save_settings_as", open},
                                                    {"load_settings", open && !busy},
                                                    {"process", open && !busy},
                                                    {"tune", open && !busy},
@@ -410,6 +500,14 @@ void MainWindow::askForSurvey() {
     if (file.isEmpty()) return;
     rememberFolder(file);
     open(file);
+}
+
+void MainWindow::newSurvey(const QStringList& files) {
+    auto* dialog = new NewSurveyDialog(this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &NewSurveyDialog::created, this, [this](const QString& survey) { open(survey); });
+    dialog->open();
+    dialog->addFiles(files);
 }
 
 void MainWindow::askForExport() {
@@ -443,13 +541,19 @@ void MainWindow::showSurvey() {
     if (survey) {
         rememberSurvey(text(session_.path().string()));
         views_->setCurrentWidget(map_);
-        map().setEdits(session_.edits());
+        session_.viewState().setEdits(session_.edits());
     }
     place_->clear();
     showTitle();
 }
 
 void MainWindow::showProducts() {
+    const auto products = session_.products();
+    QList<RasterLayer> layers{RasterLayer::None};
+    for (const auto& [layer, name] : layerNames()) {
+        if (products && hasLayer(*products, layer)) layers << layer;
+    }
+    session_.viewState().setAvailable(layers);
     map_->show(session_.map(), session_.products());
     const auto survey = session_.shownSurvey();
     terrain_->show(survey, session_.map(), session_.products());
@@ -464,7 +568,8 @@ void MainWindow::showProducts() {
 void MainWindow::showTree() {
     const auto survey = session_.survey();
     if (!survey) return;
-    tree_model_.show(*survey, *session_.map(), session_.products().get(), session_.edits(), map().scene());
+    tree_model_.show(*survey, *session_.map(), session_.products().get(), session_.edits(),
+                     session_.viewState().now());
     tree_->expandAll();
     tree_->header()->setStretchLastSection(false);
     tree_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
@@ -653,8 +758,13 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-    const auto urls = event->mimeData()->urls();
-    if (!urls.isEmpty() && urls.front().isLocalFile()) open(urls.front().toLocalFile());
+    QStringList paths;
+    for (const QUrl& url : event->mimeData()->urls()) {
+        if (url.isLocalFile()) paths << url.toLocalFile();
+    }
+    if (paths.isEmpty()) return;
+    if (areLooseFiles(paths) && !session_.busy()) return newSurvey(paths);
+    open(paths.front());
 }
 
 }  // namespace terrawalk::gui

@@ -40,6 +40,8 @@ class MainWindow : public QMainWindow {
     [[nodiscard]] SurveySession& session() { return session_; }
     [[nodiscard]] MapView& map();
     void open(const QString& path, bool then_process = false);
+    /// Asks what survey the files make; see NewSurveyDialog.
+    void newSurvey(const QStringList& files = {});
     void setTheme(Theme theme);
     /// Remembers where the window and its docks stand.
     void keepLayout();
@@ -48,6 +50,9 @@ class MainWindow : public QMainWindow {
     struct Questions {
         std::function<QString(const QString& title, const QString& folder)> survey;
         std::function<QString(const QString& title, const QString& folder)> settings_file;
+        std::function<QString(const QString& title, const QString& folder)> settings_target;
+        std::function<QString(const QString& title, const QString& folder)> dem;
+        std::function<QString(const QString& title, const QString& folder)> searches;
     };
     Questions questions;
 
@@ -61,11 +66,15 @@ class MainWindow : public QMainWindow {
 
   private:
     void buildDocks();
+    void explain();
     void buildViews();
     void buildActions();
     void buildFileMenu();
     void buildEditMenu();
     void buildViewMenu();
+    void buildCompareMenu(QMenu& menu);
+    void fillCompareMenu(QMenu& menu);
+    void saveSettingsAs();
     void buildHelpMenu();
     QAction* addAction(QMenu& menu, const QString& name, const QString& icon_name, const QString& text,
                        const QKeySequence& key, const std::function<void()>& run);

@@ -58,7 +58,7 @@ struct LegendPart {
 };
 
 QString value(double number, double range) {
-    return QString::number(number, 'f', range < 1.0 ? 2 : range < 100.0 ? 1 : 0);
+    return QString::number(number, 'f', range < 1.0 ? 2 : range < 100.0 ? 1 : 0).replace('-', QChar(0x2212));
 }
 
 QString titleOf(RasterLayer layer) {
@@ -71,6 +71,8 @@ QString titleOf(RasterLayer layer) {
             return QCoreApplication::translate("MapFurniture", "Density");
         case RasterLayer::Source:
             return QCoreApplication::translate("MapFurniture", "Source");
+        case RasterLayer::Change:
+            return QCoreApplication::translate("MapFurniture", "Change of height");
         case RasterLayer::None:
             break;
     }
@@ -99,6 +101,7 @@ std::vector<LegendPart> legendParts(const MapScene& scene) {
     if (scene.raster && !scene.raster->levels.empty()) {
         parts.push_back({titleOf(scene.raster->layer), scene.raster->legend});
     }
+    if (!scene.shown.tracks) return parts;
     if (const auto classes = fixClasses(scene); !classes.empty()) {
         LegendPart part{QCoreApplication::translate("MapFurniture", "GNSS fix"), {}};
         for (const auto& [name, colour] : classes) {
@@ -110,12 +113,12 @@ std::vector<LegendPart> legendParts(const MapScene& scene) {
     if (const auto range = trackRange(scene)) {
         std::vector<QColor> ramp;
         for (const Colour& c : sequentialRamp()) ramp.emplace_back(c[0], c[1], c[2]);
-        const bool speed = scene.colouring == TrackColouring::Speed;
-        parts.push_back({titleOf(scene.colouring),
+        const bool speed = scene.shown.colouring == TrackColouring::Speed;
+        parts.push_back({titleOf(scene.shown.colouring),
                          {ramp,
                           range->low,
                           range->high,
-                          scene.colouring != TrackColouring::Height,
+                          scene.shown.colouring != TrackColouring::Height,
                           speed ? "m/s" : "m",
                           {}}});
     }
@@ -126,11 +129,15 @@ double heightOf(const LegendPart& part, double line_px) {
     const double body = part.legend.classes.isEmpty()
                             ? kRampHeight_px + line_px * 0.6
                             : (line_px + 4) * static_cast<double>(part.legend.classes.size());
-    return line_px + 8 + body + 2 * kPadding_px;
+    return line_px + 8 + body +
+           (part.legend.notes.isEmpty() ? 0.0
+                                        : line_px * (0.3 + static_cast<double>(part.legend.notes.size()))) +
+           2 * kPadding_px;
 }
 
 double widthOf(const LegendPart& part, const QFontMetricsF& metrics) {
     double width = metrics.horizontalAdvance(part.title + " (" + part.legend.unit + ")");
+    for (const QString& note : part.legend.notes) width = std::max(width, metrics.horizontalAdvance(note));
     for (const QString& c : part.legend.classes) {
         width = std::max(width, metrics.horizontalAdvance(c) + kRampWidth_px + 8);
     }
@@ -167,16 +174,23 @@ void drawLegend(QPainter& painter, const LegendPart& part, const QRectF& box, co
         const double share = tick / 4.0, at = bar.bottom() - share * bar.height();
         painter.setPen(palette.color(QPalette::Text));
         painter.drawLine(QPointF(bar.right(), at), QPointF(bar.right() + 4, at));
-        const QString sign = tick == 4 && part.legend.open_above ? "≥ " : "";
+        const QString sign = tick == 4 && part.legend.open_above   ? "≥ "
+                             : tick == 0 && part.legend.open_below ? "≤ "
+                                                                   : "";
         painter.drawText(QPointF(bar.right() + 8, at + metrics.ascent() * 0.4),
                          sign + value(part.legend.low + share * range, range));
+    }
+    y = bar.bottom() + metrics.height() * 0.6;
+    for (const QString& note : part.legend.notes) {
+        y += metrics.height();
+        painter.drawText(QPointF(left, y), note);
     }
 }
 
 void drawVectorNote(QPainter& painter, const MapScene& scene, const MapTransform& transform,
                     const QPalette& palette) {
     const double scale = vectorScale(scene, transform);
-    if (scale <= 0.0) return;
+    if (scale <= 0.0 || !scene.shown.marks) return;
     const QString note = QCoreApplication::translate("MapFurniture", "errors at marks %1 times as long")
                              .arg(QString::number(scale, 'g', 3));
     const QFontMetricsF metrics(painter.font());

@@ -5,8 +5,10 @@
 #include <QComboBox>
 #include <QStandardItemModel>
 #include <QToolBar>
+#include <QToolButton>
 #include <QVBoxLayout>
 
+#include "app/gui/show_menu.hpp"
 #include "app/gui/theme.hpp"
 
 namespace terrawalk::gui {
@@ -15,7 +17,8 @@ namespace {
 constexpr const char* kIconName = "icon_name";
 }
 
-MapPanel::MapPanel(Selection& selection, QWidget* parent) : QWidget(parent), view_(new MapView(selection)) {
+MapPanel::MapPanel(ViewState& state, Selection& selection, QWidget* parent)
+    : QWidget(parent), state_(state), view_(new MapView(state, selection)) {
     view_->setObjectName("map");
     bar_ = new QToolBar(tr("Map"));
     bar_->setObjectName("map_bar");
@@ -33,7 +36,20 @@ MapPanel::MapPanel(Selection& selection, QWidget* parent) : QWidget(parent), vie
             if (action->data().toInt() == static_cast<int>(tool)) action->setChecked(true);
         }
     });
+    connect(&state_, &ViewState::changed, this, &MapPanel::followState);
+    connect(&state_, &ViewState::availableChanged, this, &MapPanel::followState);
+    followState();
     themeChanged();
+}
+
+void MapPanel::followState() {
+    layers_->setCurrentIndex(layers_->findData(static_cast<int>(state_.now().layer)));
+    colourings_->setCurrentIndex(colourings_->findData(static_cast<int>(state_.now().colouring)));
+    auto* model = qobject_cast<QStandardItemModel*>(layers_->model());
+    for (int row = 0; row < layers_->count(); ++row) {
+        model->item(row)->setEnabled(
+            state_.available(static_cast<RasterLayer>(layers_->itemData(row).toInt())));
+    }
 }
 
 void MapPanel::addLayers() {
@@ -41,17 +57,13 @@ void MapPanel::addLayers() {
     layers_->setObjectName("layers");
     layers_->setAccessibleName(tr("Layer"));
     layers_->setToolTip(tr("What the ground is coloured by"));
-    const std::pair<RasterLayer, QString> names[] = {{RasterLayer::Height, tr("Shaded heights")},
-                                                     {RasterLayer::Uncertainty, tr("Uncertainty")},
-                                                     {RasterLayer::Density, tr("Point density")},
-                                                     {RasterLayer::Source, tr("Source of heights")},
-                                                     {RasterLayer::None, tr("No ground")}};
-    for (const auto& [layer, name] : names) layers_->addItem(name, static_cast<int>(layer));
-    connect(layers_, &QComboBox::currentIndexChanged, this, [this] {
-        const auto layer = static_cast<RasterLayer>(layers_->currentData().toInt());
-        view_->setLayer(layer);
-        Q_EMIT layerChanged(layer);
-    });
+    layers_->setWhatsThis(tr(
+        "What the ground is coloured by, here and in the 3-D view: shaded heights; their standard error; how "
+        "many points a square metre has; whether a height was measured, interpolated or extrapolated; and, "
+        "once View > Compare with has something to compare, how the heights changed."));
+    for (const auto& [layer, name] : layerNames()) layers_->addItem(name, static_cast<int>(layer));
+    connect(layers_, &QComboBox::currentIndexChanged, this,
+            [this] { state_.setLayer(static_cast<RasterLayer>(layers_->currentData().toInt())); });
     bar_->addWidget(layers_);
 }
 
@@ -60,29 +72,25 @@ void MapPanel::addColourings() {
     colourings_->setObjectName("colourings");
     colourings_->setAccessibleName(tr("Colour of the tracks"));
     colourings_->setToolTip(tr("What the tracks are coloured by"));
-    const std::pair<TrackColouring, QString> names[] = {
-        {TrackColouring::Run, tr("Tracks by run")},
-        {TrackColouring::Fix, tr("Tracks by fix")},
-        {TrackColouring::Speed, tr("Tracks by speed")},
-        {TrackColouring::Height, tr("Tracks by height")},
-        {TrackColouring::SigmaPlan, tr("Tracks by plan σ")},
-        {TrackColouring::SigmaHeight, tr("Tracks by height σ")}};
-    for (const auto& [colouring, name] : names) colourings_->addItem(name, static_cast<int>(colouring));
-    connect(colourings_, &QComboBox::currentIndexChanged, this, [this] {
-        const auto colouring = static_cast<TrackColouring>(colourings_->currentData().toInt());
-        view_->setColouring(colouring);
-        Q_EMIT colouringChanged(colouring);
-    });
+    colourings_->setWhatsThis(tr(
+        "What the tracks are coloured by: one colour for each run, the GNSS fix, speed, height, or standard "
+        "errors of the fused track."));
+    for (const auto& [colouring, name] : colouringNames())
+        colourings_->addItem(name, static_cast<int>(colouring));
+    connect(colourings_, &QComboBox::currentIndexChanged, this,
+            [this] { state_.setColouring(static_cast<TrackColouring>(colourings_->currentData().toInt())); });
     auto* gap = new QWidget;
     gap->setFixedWidth(kGrid_px);
     bar_->addWidget(gap);
     bar_->addWidget(colourings_);
-    contours_ = bar_->addAction(tr("Contours"));
-    contours_->setProperty(kIconName, "contours");
-    contours_->setCheckable(true);
-    contours_->setObjectName("contours");
-    contours_->setToolTip(tr("Contours of the surface"));
-    connect(contours_, &QAction::toggled, view_, &MapView::setContoursVisible);
+    auto* shown = new QToolButton;
+    shown->setObjectName("shown");
+    shown->setText(tr("Show"));
+    shown->setToolTip(tr("What is drawn on the ground, here and in the 3-D view"));
+    shown->setWhatsThis(shown->toolTip());
+    shown->setPopupMode(QToolButton::InstantPopup);
+    shown->setMenu(new ShowMenu(state_, shown));
+    bar_->addWidget(shown);
     bar_->addSeparator();
 }
 
@@ -98,6 +106,7 @@ void MapPanel::addTool(MapTool tool, const QString& icon_name, const QString& te
     action->setToolTip(
         QString("<b>%1</b> (%2)<br>%3").arg(text, key.toString(QKeySequence::NativeText), tip));
     action->setStatusTip(tip);
+    action->setWhatsThis(tip);
     tools_->addAction(action);
     connect(action, &QAction::triggered, this, [this, tool] {
         view_->setTool(tool);
@@ -129,6 +138,7 @@ void MapPanel::addTools() {
         QAction* action = bar_->addAction(text);
         action->setProperty(kIconName, name);
         action->setObjectName(name);
+        action->setWhatsThis(text);
         connect(action, &QAction::triggered, view_, run);
     };
     add("fit", tr("Show all (Home)"), [this] { view_->fit(); });
@@ -146,12 +156,6 @@ void MapPanel::themeChanged() {
 }
 
 void MapPanel::show(std::shared_ptr<const SurveyMap> survey, std::shared_ptr<const Products> products) {
-    auto* model = qobject_cast<QStandardItemModel*>(layers_->model());
-    for (int row = 0; row < layers_->count(); ++row) {
-        const auto layer = static_cast<RasterLayer>(layers_->itemData(row).toInt());
-        model->item(row)->setEnabled(layer == RasterLayer::None || (products && hasLayer(*products, layer)));
-    }
-    contours_->setEnabled(products != nullptr);
     view_->show(std::move(survey), std::move(products));
 }
 

@@ -10,32 +10,29 @@ class QToolBar;
 
 namespace terrawalk::gui {
 
-/// The map under its own tool bar: layers, colours of the tracks, contours, and tools.
+/// The map under its own tool bar: layers, colours of the tracks, what is shown, and tools.
 class MapPanel : public QWidget {
     Q_OBJECT
   public:
-    explicit MapPanel(Selection& selection, QWidget* parent = nullptr);
+    MapPanel(ViewState& state, Selection& selection, QWidget* parent = nullptr);
     [[nodiscard]] MapView& view() { return *view_; }
     void show(std::shared_ptr<const SurveyMap> survey, std::shared_ptr<const Products> products);
     void themeChanged();
     /// Actions of the tools, for a menu.
     [[nodiscard]] QList<QAction*> toolActions() const;
 
-  Q_SIGNALS:
-    void layerChanged(terrawalk::gui::RasterLayer layer);
-    void colouringChanged(terrawalk::gui::TrackColouring colouring);
-
   private:
     void addLayers();
     void addColourings();
+    void followState();
     void addTools();
     void addTool(MapTool tool, const QString& icon_name, const QString& text, const QString& tip,
                  const QKeySequence& key);
+    ViewState& state_;
     MapView* view_ = nullptr;
     QToolBar* bar_ = nullptr;
     QComboBox* layers_ = nullptr;
     QComboBox* colourings_ = nullptr;
-    QAction* contours_ = nullptr;
     QActionGroup* tools_ = nullptr;
 };
 

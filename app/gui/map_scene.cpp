@@ -15,6 +15,7 @@ namespace terrawalk::gui {
 namespace {
 
 constexpr double kHalo_px = 2.5;
+constexpr std::size_t kMostDots = 20'000;
 
 QString text(const std::string& utf8) {
     return QString::fromStdString(utf8);
@@ -163,27 +164,27 @@ std::optional<ValueRange> trackRange(const MapScene& scene) {
     if (!scene.survey) return std::nullopt;
     std::vector<double> all;
     for (const MapTrack& track : scene.survey->tracks) {
-        if (scene.hidden_runs.contains(text(track.run_id))) continue;
-        const auto own = valuesOf(track, scene.colouring);
+        if (scene.shown.hidden_runs.contains(text(track.run_id))) continue;
+        const auto own = valuesOf(track, scene.shown.colouring);
         std::copy_if(own.begin(), own.end(), std::back_inserter(all),
                      [](double v) { return std::isfinite(v); });
     }
     if (all.empty()) return std::nullopt;
     // The few largest values must not take the colours from all others.
     const double high = quantile(all, 0.98);
-    const double low = scene.colouring == TrackColouring::Height ? quantile(std::move(all), 0.02) : 0.0;
+    const double low = scene.shown.colouring == TrackColouring::Height ? quantile(std::move(all), 0.02) : 0.0;
     return ValueRange{low, std::max(high, low + 1e-6)};
 }
 
 TrackInk trackInk(const MapScene& scene, std::size_t index) {
     const MapTrack& track = scene.survey->tracks[index];
-    if (scene.colouring == TrackColouring::Fix && track.fix.size() == track.map_m.size()) {
+    if (scene.shown.colouring == TrackColouring::Fix && track.fix.size() == track.map_m.size()) {
         return [&track](std::size_t i) {
             return fixColour(track.fix[i]);
         };
     }
     const auto range = trackRange(scene);
-    auto own = valuesOf(track, scene.colouring);
+    auto own = valuesOf(track, scene.shown.colouring);
     if (!range || own.size() != track.map_m.size()) {
         return [colour = runColour(index).rgb()](std::size_t) {
             return colour;
@@ -197,7 +198,7 @@ TrackInk trackInk(const MapScene& scene, std::size_t index) {
 
 std::vector<std::pair<QString, QColor>> fixClasses(const MapScene& scene) {
     std::vector<std::pair<QString, QColor>> classes;
-    if (!scene.survey || scene.colouring != TrackColouring::Fix) return classes;
+    if (!scene.survey || scene.shown.colouring != TrackColouring::Fix) return classes;
     const auto occurs = [&](int code) {
         return std::any_of(scene.survey->tracks.begin(), scene.survey->tracks.end(),
                            [&](const MapTrack& track) {
@@ -215,12 +216,12 @@ std::vector<std::pair<QString, QColor>> fixClasses(const MapScene& scene) {
 
 std::optional<TrackHit> nearestOnTracks(const MapScene& scene, const MapTransform& transform,
                                         QPointF screen_px, const QString& only_run) {
-    if (!scene.survey) return std::nullopt;
+    if (!scene.survey || !scene.shown.tracks) return std::nullopt;
     std::optional<TrackHit> best;
     for (std::size_t t = 0; t < scene.survey->tracks.size(); ++t) {
         const MapTrack& track = scene.survey->tracks[t];
         const QString id = text(track.run_id);
-        if (scene.hidden_runs.contains(id) || (!only_run.isEmpty() && id != only_run)) continue;
+        if (scene.shown.hidden_runs.contains(id) || (!only_run.isEmpty() && id != only_run)) continue;
         for (std::size_t i = 0; i < track.map_m.size(); ++i) {
             const QPointF off = transform.toScreen({track.map_m[i].x(), track.map_m[i].y()}) - screen_px;
             const double distance_px = std::hypot(off.x(), off.y());
@@ -231,11 +232,11 @@ std::optional<TrackHit> nearestOnTracks(const MapScene& scene, const MapTransfor
 }
 
 QString markAt(const MapScene& scene, const MapTransform& transform, QPointF screen_px) {
-    if (!scene.survey) return {};
+    if (!scene.survey || !scene.shown.marks) return {};
     constexpr double kReach_px = 8.0;
     for (const PlacedMark& placed : scene.survey->marks) {
         const QString name = text(placed.mark.name);
-        if (scene.hidden_marks.contains(name)) continue;
+        if (scene.shown.hidden_marks.contains(name)) continue;
         const QPointF off = transform.toScreen({placed.map_m.x(), placed.map_m.y()}) - screen_px;
         if (std::hypot(off.x(), off.y()) <= kReach_px) return name;
     }
@@ -256,19 +257,51 @@ double vectorScale(const MapScene& scene, const MapTransform& transform) {
     return std::max(1.0, roundBelow(kLongest_px / (longest_m * transform.pixels_per_m)));
 }
 
+QRgb pointColour(GroundPointState state) {
+    switch (state) {
+        case GroundPointState::Used:
+            return qRgb(32, 36, 40);
+        case GroundPointState::Thinned:
+        case GroundPointState::RunLeftOut:
+            return qRgb(128, 134, 140);
+        default:
+            return qRgb(213, 94, 0);
+    }
+}
+
+void drawPoints(QPainter& painter, const MapScene& scene, const MapTransform& transform) {
+    if (!scene.survey || !scene.products || !scene.shown.points) return;
+    const auto& places = scene.survey->ground_points_m;
+    const auto& points = scene.products->ground_points;
+    if (places.size() != points.size()) return;
+    painter.setRenderHint(QPainter::Antialiasing, false);
+    const QRectF seen = QRectF(QPointF(0, 0), transform.size_px).adjusted(-2, -2, 2, 2);
+    // Of very many some suffice to see where they lie.
+    const std::size_t step = 1 + places.size() / kMostDots;
+    for (std::size_t i = 0; i < places.size(); i += step) {
+        if (!places[i].allFinite()) continue;
+        const QPointF at = transform.toScreen({places[i].x(), places[i].y()});
+        const bool hidden =
+            points[i].run < scene.survey->tracks.size() &&
+            scene.shown.hidden_runs.contains(text(scene.survey->tracks[points[i].run].run_id));
+        if (hidden || !seen.contains(at)) continue;
+        painter.fillRect(QRectF(at.x() - 1.0, at.y() - 1.0, 2.5, 2.5), QColor(pointColour(points[i].state)));
+    }
+}
+
 void drawTracks(QPainter& painter, const MapScene& scene, const MapTransform& transform) {
     if (!scene.survey) return;
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setBrush(Qt::NoBrush);
-    for (std::size_t t = 0; t < scene.survey->tracks.size(); ++t) {
+    for (std::size_t t = 0; scene.shown.tracks && t < scene.survey->tracks.size(); ++t) {
         const MapTrack& track = scene.survey->tracks[t];
         const QString id = text(track.run_id);
-        if (scene.hidden_runs.contains(id)) continue;
+        if (scene.shown.hidden_runs.contains(id)) continue;
         const double width_px = scene.highlighted == id ? 4.0 : 1.8;
         painter.setPen(
             QPen(QColor(255, 255, 255, 150), width_px + 1.6, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
         painter.drawPolyline(onScreen(track, transform));
-        if (scene.colouring == TrackColouring::Run) {
+        if (scene.shown.colouring == TrackColouring::Run) {
             painter.setPen(QPen(runColour(t), width_px, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
             painter.drawPolyline(onScreen(track, transform));
         } else {
@@ -277,13 +310,13 @@ void drawTracks(QPainter& painter, const MapScene& scene, const MapTransform& tr
     }
     for (const MapTrack& track : scene.survey->tracks) {
         const QString id = text(track.run_id);
-        if (scene.hidden_runs.contains(id)) continue;
-        for (const ExcludedStretch& out : scene.edits.stretches) {
+        if (scene.shown.hidden_runs.contains(id)) continue;
+        for (const ExcludedStretch& out : scene.shown.edits->stretches) {
             if (out.run != track.run_id) continue;
             drawPart(painter, track, out.from_s, out.to_s, QPen(Qt::white, 5.0, Qt::SolidLine, Qt::FlatCap),
                      transform);
-            drawPart(painter, track, out.from_s, out.to_s,
-                     QPen(QColor(110, 110, 110), 2.0, Qt::DotLine, Qt::FlatCap), transform);
+            drawPart(painter, track, out.from_s, out.to_s, QPen(kExcludedInk, 2.0, Qt::DotLine, Qt::FlatCap),
+                     transform);
         }
         if (scene.stretch && scene.stretch->run == id) {
             QColor glow = accentColour();
@@ -311,12 +344,12 @@ void drawMarkSymbol(QPainter& painter, QPointF at, const ControlMark& mark, bool
 
 void drawMarks(QPainter& painter, const MapScene& scene, const MapTransform& transform,
                const QPalette& palette) {
-    if (!scene.survey) return;
+    if (!scene.survey || !scene.shown.marks) return;
     painter.setRenderHint(QPainter::Antialiasing);
     const double scale = vectorScale(scene, transform);
     for (const PlacedMark& placed : scene.survey->marks) {
         const QString name = text(placed.mark.name);
-        if (scene.hidden_marks.contains(name)) continue;
+        if (scene.shown.hidden_marks.contains(name)) continue;
         const QPointF at = transform.toScreen({placed.map_m.x(), placed.map_m.y()});
         if (placed.array_map_m) {
             const Eigen::Vector2d off_px =
@@ -329,7 +362,7 @@ void drawMarks(QPainter& painter, const MapScene& scene, const MapTransform& tra
     QList<QRectF> taken;
     for (const PlacedMark& placed : scene.survey->marks) {
         const QString name = text(placed.mark.name);
-        if (scene.hidden_marks.contains(name)) continue;
+        if (scene.shown.hidden_marks.contains(name)) continue;
         const QPointF at = transform.toScreen({placed.map_m.x(), placed.map_m.y()}) + QPointF(8, -6);
         const QRectF box(
             at - QPointF(0, painter.fontMetrics().ascent()),
@@ -343,7 +376,7 @@ void drawMarks(QPainter& painter, const MapScene& scene, const MapTransform& tra
 }
 
 void drawTerraceEdges(QPainter& painter, const MapScene& scene, const MapTransform& transform) {
-    if (!scene.products || !scene.show_edges) return;
+    if (!scene.products || !scene.shown.edges) return;
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setBrush(Qt::NoBrush);
     for (const auto& edge : scene.products->terrace_edges) {
@@ -351,7 +384,7 @@ void drawTerraceEdges(QPainter& painter, const MapScene& scene, const MapTransfo
             QPolygonF line;
             for (const Eigen::Vector3d& p : *vertices) line << transform.toScreen({p.x(), p.y()});
             const bool top = vertices == &edge.top_m;
-            painter.setPen(QPen(QColor(70, 35, 20), top ? 1.8 : 1.0, top ? Qt::SolidLine : Qt::DashLine));
+            painter.setPen(QPen(kEdgeInk, top ? 1.8 : 1.0, top ? Qt::SolidLine : Qt::DashLine));
             painter.drawPolyline(line);
         }
     }
@@ -359,7 +392,7 @@ void drawTerraceEdges(QPainter& painter, const MapScene& scene, const MapTransfo
 
 void drawContours(QPainter& painter, const MapScene& scene, const MapTransform& transform,
                   const QPalette& palette) {
-    if (!scene.contours) return;
+    if (!scene.contours || !scene.shown.contours) return;
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setBrush(Qt::NoBrush);
     const QRectF seen = QRectF(QPointF(0, 0), transform.size_px).adjusted(-8, -8, 8, 8);
@@ -404,6 +437,8 @@ void drawLine(QPainter& painter, const QPolygonF& line, const QColor& colour, Qt
     painter.drawPolyline(line);
 }
 
+}  // namespace
+
 QColor lineColour(BreaklineKind kind) {
     switch (kind) {
         case BreaklineKind::Hard:
@@ -418,13 +453,11 @@ QColor lineColour(BreaklineKind kind) {
     return {};
 }
 
-}  // namespace
-
 void drawEdits(QPainter& painter, const MapScene& scene, const MapTransform& transform,
                const QPalette& palette) {
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setBrush(Qt::NoBrush);
-    for (const Breakline& line : scene.edits.lines) {
+    for (const Breakline& line : scene.shown.edits->lines) {
         QPolygonF vertices_m;
         for (const Eigen::Vector3d& v : line.vertices_m) vertices_m << QPointF(v.x(), v.y());
         const bool ring = line.kind == BreaklineKind::Boundary || line.kind == BreaklineKind::Hole;

@@ -4,7 +4,6 @@
 #include <QPainter>
 #include <QPalette>
 #include <QPolygonF>
-#include <QSet>
 #include <QString>
 #include <functional>
 #include <memory>
@@ -15,12 +14,11 @@
 #include "app/gui/map_transform.hpp"
 #include "app/gui/raster_picture.hpp"
 #include "app/gui/selection.hpp"
+#include "app/gui/view_state.hpp"
 #include "app/pipeline/process.hpp"
 #include "app/pipeline/survey_map.hpp"
 
 namespace terrawalk::gui {
-
-enum class TrackColouring { Run, Fix, Speed, Height, SigmaPlan, SigmaHeight };
 
 /// What a person is drawing: map metres.
 struct MapSketch {
@@ -34,13 +32,9 @@ struct MapScene {
     std::shared_ptr<const SurveyMap> survey;
     std::shared_ptr<const Products> products;
     std::shared_ptr<const RasterPicture> raster;
-    TrackColouring colouring = TrackColouring::Run;
-    QSet<QString> hidden_runs;
-    QSet<QString> hidden_marks;
-    QString highlighted;  ///< run or mark that is selected elsewhere
-    bool show_edges = true;
-    std::shared_ptr<const std::vector<Contour>> contours;  ///< null: none shown
-    SurveyEdits edits;                                     ///< drawn lines and excluded stretches are shown
+    ViewChoice shown;
+    QString highlighted;                                   ///< run or mark that is selected elsewhere
+    std::shared_ptr<const std::vector<Contour>> contours;  ///< null: none yet
     std::optional<TrackStretch> stretch;                   ///< selected
     MapSketch sketch;
     std::optional<QPointF> place_m;  ///< that a person asked about
@@ -77,6 +71,14 @@ struct TrackHit {
 /// Times by which errors at marks are drawn longer than they are, a round number.
 [[nodiscard]] double vectorScale(const MapScene& scene, const MapTransform& transform);
 
+/// Of a ground point, by whether it carries the surface, stands back for another, or was refused.
+[[nodiscard]] QRgb pointColour(GroundPointState state);
+/// Of a drawn line.
+[[nodiscard]] QColor lineColour(BreaklineKind kind);
+inline const QColor kEdgeInk(70, 35, 20);  ///< of terraces
+inline const QColor kExcludedInk(110, 110, 110);
+
+void drawPoints(QPainter& painter, const MapScene& scene, const MapTransform& transform);
 void drawTracks(QPainter& painter, const MapScene& scene, const MapTransform& transform);
 inline const QColor kMarkInk(20, 24, 28);
 /// Square, triangle or dot: zero mark, control or check.

@@ -40,6 +40,10 @@ double area(const QPolygonF& ring) {
     return std::abs(twice) / 2.0;
 }
 
+bool sameView(const MapTransform& a, const MapTransform& b) {
+    return a.centre_m == b.centre_m && a.pixels_per_m == b.pixels_per_m && a.size_px == b.size_px;
+}
+
 double contourInterval(const Products& products) {
     const double range_m = products.report.surface.highest_m - products.report.surface.lowest_m;
     return range_m > 0.0 ? roundBelow(std::max(range_m / kContours, 0.05)) : 1.0;
@@ -47,7 +51,9 @@ double contourInterval(const Products& products) {
 
 }  // namespace
 
-MapView::MapView(Selection& selection, QWidget* parent) : QWidget(parent), selection_(selection) {
+MapView::MapView(ViewState& state, Selection& selection, QWidget* parent)
+    : QWidget(parent), state_(state), selection_(selection) {
+    scene_.shown = state_.now();
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
     setMinimumSize(320, 240);
@@ -64,12 +70,19 @@ MapView::MapView(Selection& selection, QWidget* parent) : QWidget(parent), selec
         scene_.contours = contour_watcher_.result();
         update();
     });
+    connect(&line_watcher_, &QFutureWatcherBase::finished, this, [this] {
+        if (line_watcher_.future().resultCount() == 0) return;
+        contour_picture_ = line_watcher_.result();
+        update();
+    });
+    connect(&state_, &ViewState::changed, this, &MapView::followState);
     connect(&selection_, &Selection::changed, this, &MapView::followSelection);
 }
 
 MapView::~MapView() {
     layer_watcher_.waitForFinished();
     contour_watcher_.waitForFinished();
+    line_watcher_.waitForFinished();
 }
 
 void MapView::show(std::shared_ptr<const SurveyMap> survey, std::shared_ptr<const Products> products) {
@@ -90,14 +103,15 @@ void MapView::colourLayer() {
         layer_watcher_.setFuture({});
         return;
     }
-    layer_watcher_.setFuture(QtConcurrent::run([products = scene_.products, layer = layer_] {
-        return std::make_shared<const RasterPicture>(rasterPicture(*products, layer));
+    layer_watcher_.setFuture(QtConcurrent::run([products = scene_.products, shown = scene_.shown] {
+        return std::make_shared<const RasterPicture>(
+            rasterPicture(*products, shown.layer, shown.change.get()));
     }));
 }
 
 void MapView::makeContours() {
     scene_.contours.reset();
-    if (!scene_.products || !contours_wanted_) {
+    if (!scene_.products || !scene_.shown.contours) {
         contour_watcher_.setFuture({});
         return;
     }
@@ -109,48 +123,10 @@ void MapView::makeContours() {
     }));
 }
 
-void MapView::setLayer(RasterLayer layer) {
-    if (layer == layer_) return;
-    layer_ = layer;
-    colourLayer();
-}
-
-void MapView::setColouring(TrackColouring colouring) {
-    scene_.colouring = colouring;
-    update();
-}
-
-void MapView::toggle(QSet<QString>& hidden, const QString& name, bool visible) {
-    if (visible) {
-        hidden.remove(name);
-    } else {
-        hidden.insert(name);
-    }
-    update();
-}
-
-void MapView::setRunVisible(const QString& run, bool visible) {
-    toggle(scene_.hidden_runs, run, visible);
-}
-
-void MapView::setMarkVisible(const QString& mark, bool visible) {
-    toggle(scene_.hidden_marks, mark, visible);
-}
-
-void MapView::setEdgesVisible(bool visible) {
-    scene_.show_edges = visible;
-    update();
-}
-
-void MapView::setContoursVisible(bool visible) {
-    if (visible == contours_wanted_) return;
-    contours_wanted_ = visible;
-    makeContours();
-    update();
-}
-
-void MapView::setEdits(const SurveyEdits& edits) {
-    scene_.edits = edits;
+void MapView::followState() {
+    const ViewChoice before = std::exchange(scene_.shown, state_.now());
+    if (before.layer != scene_.shown.layer || before.change != scene_.shown.change) colourLayer();
+    if (before.contours != scene_.shown.contours) makeContours();
     update();
 }
 
@@ -201,12 +177,46 @@ void MapView::paintEvent(QPaintEvent*) {
     painter.fillRect(rect(), palette().color(QPalette::Base));
     if (!scene_.survey) return;
     if (scene_.raster) drawRaster(painter, *scene_.raster, transform_);
-    drawContours(painter, scene_, transform_, palette());
+    paintContours(painter);
     drawTerraceEdges(painter, scene_, transform_);
+    drawPoints(painter, scene_, transform_);
     drawTracks(painter, scene_, transform_);
     drawMarks(painter, scene_, transform_, palette());
     drawEdits(painter, scene_, transform_, palette());
     drawFurniture(painter, scene_, transform_, palette());
+}
+
+void MapView::paintContours(QPainter& painter) {
+    if (!scene_.contours || !scene_.shown.contours) return;
+    const ContourPicture& last = contour_picture_;
+    if (last.contours == scene_.contours && !last.image.isNull()) {
+        // Until the new one has come, the last picture goes along with the map.
+        const MapTransform& then = last.transform;
+        const QPointF from = transform_.toScreen(then.toMap({0, 0}));
+        const QPointF to = transform_.toScreen(then.toMap({then.size_px.width(), then.size_px.height()}));
+        painter.drawImage(QRectF(from, to), last.image);
+    }
+    const bool current = last.contours == scene_.contours && sameView(last.transform, transform_) &&
+                         last.palette == palette() && last.image.devicePixelRatio() == devicePixelRatioF();
+    if (!current) drawContoursBeside();
+}
+
+void MapView::drawContoursBeside() {
+    // One at a time; when it has come, the next paint sees whether another is needed.
+    if (line_watcher_.isRunning()) return;
+    MapScene scene;
+    scene.contours = scene_.contours;
+    line_watcher_.setFuture(QtConcurrent::run(
+        [scene, transform = transform_, palette = palette(), font = font(), ratio = devicePixelRatioF()] {
+            QImage image((transform.size_px * ratio).toSize(), QImage::Format_ARGB32_Premultiplied);
+            image.setDevicePixelRatio(ratio);
+            image.fill(Qt::transparent);
+            QPainter painter(&image);
+            painter.setFont(font);
+            drawContours(painter, scene, transform, palette);
+            painter.end();
+            return ContourPicture{scene.contours, transform, palette, image};
+        }));
 }
 
 void MapView::resizeEvent(QResizeEvent*) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <QFutureWatcher>
+#include <QImage>
+#include <QPalette>
 #include <QWidget>
 #include <memory>
 #include <optional>
@@ -28,18 +30,12 @@ enum class MapTool {
 class MapView : public QWidget {
     Q_OBJECT
   public:
-    explicit MapView(Selection& selection, QWidget* parent = nullptr);
+    /// Both must outlive the view.
+    MapView(ViewState& state, Selection& selection, QWidget* parent = nullptr);
     ~MapView() override;
 
     /// Shows a survey, and results where there are some; where the place is another, all of it comes in view.
     void show(std::shared_ptr<const SurveyMap> survey, std::shared_ptr<const Products> products);
-    void setLayer(RasterLayer layer);
-    void setColouring(TrackColouring colouring);
-    void setRunVisible(const QString& run, bool visible);
-    void setMarkVisible(const QString& mark, bool visible);
-    void setEdgesVisible(bool visible);
-    void setContoursVisible(bool visible);
-    void setEdits(const SurveyEdits& edits);
     void setTool(MapTool tool);
     void fit();
     void centreOn(QPointF map_m);
@@ -47,11 +43,10 @@ class MapView : public QWidget {
 
     [[nodiscard]] const MapScene& scene() const { return scene_; }
     [[nodiscard]] const MapTransform& transform() const { return transform_; }
-    [[nodiscard]] RasterLayer layer() const { return layer_; }
     [[nodiscard]] MapTool tool() const { return tool_; }
     /// Whether the layer that was asked for is still being coloured, or contours are being made.
     [[nodiscard]] bool preparing() const {
-        return layer_watcher_.isRunning() || contour_watcher_.isRunning();
+        return layer_watcher_.isRunning() || contour_watcher_.isRunning() || line_watcher_.isRunning();
     }
 
   Q_SIGNALS:
@@ -77,7 +72,9 @@ class MapView : public QWidget {
   private:
     void colourLayer();
     void makeContours();
-    void toggle(QSet<QString>& hidden, const QString& name, bool visible);
+    void paintContours(QPainter& painter);
+    void drawContoursBeside();
+    void followState();
     void followSelection();
     void moveBy(QPointF by_px);
     void click(QPointF screen_px);
@@ -86,14 +83,22 @@ class MapView : public QWidget {
     void finishLine();
     [[nodiscard]] bool draws() const { return tool_ != MapTool::Pan && tool_ != MapTool::SelectStretch; }
 
+    ViewState& state_;
     Selection& selection_;
     MapScene scene_;
     MapTransform transform_;
-    RasterLayer layer_ = RasterLayer::Height;
     MapTool tool_ = MapTool::Pan;
-    bool contours_wanted_ = false;
     QFutureWatcher<std::shared_ptr<const RasterPicture>> layer_watcher_;
     QFutureWatcher<std::shared_ptr<const std::vector<Contour>>> contour_watcher_;
+    /// Contours as they lie on the screen: thousands of smooth lines take longer than the window may be deaf.
+    struct ContourPicture {
+        std::shared_ptr<const std::vector<Contour>> contours;
+        MapTransform transform;
+        QPalette palette;
+        QImage image;
+    };
+    ContourPicture contour_picture_;
+    QFutureWatcher<ContourPicture> line_watcher_;
     std::optional<QPointF> pressed_at_;
     std::optional<QPointF> dragged_from_;
     std::optional<TrackHit> stretch_from_;

@@ -8,6 +8,7 @@
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
+#include <map>
 // QCustomPlot needs the keywords that the rest of the program does without. No other file includes it.
 #define signals Q_SIGNALS
 #define slots Q_SLOTS
@@ -107,6 +108,7 @@ struct PlotCanvas::Parts {
     void addPanel(std::size_t index, QCPMarginGroup& margins);
     void addSeries(Panel& panel, const PlotSeries& series);
     void addBars(Panel& panel, const PlotSeries& series);
+    void addBoxes(Panel& panel, const PlotSeries& series);
     void addBand(Shown& shown, QCPAxis* x, QCPAxis* y, const QColor& colour);
     void nameCategories(QCPAxisRect& rect);
     void style(QCPAxisRect& rect) const;
@@ -337,8 +339,33 @@ void PlotCanvas::Parts::addBars(Panel& panel, const PlotSeries& series) {
                   QVector<double>(series.y.begin(), series.y.end()), true);
 }
 
+void PlotCanvas::Parts::addBoxes(Panel& panel, const PlotSeries& series) {
+    auto* boxes =
+        new QCPStatisticalBox(panel.rect->axis(QCPAxis::atBottom), panel.rect->axis(QCPAxis::atLeft));
+    const QColor colour = seriesColour(series.ink), ink = canvas->palette().color(QPalette::Text);
+    QColor fill = colour;
+    fill.setAlpha(90);
+    boxes->setName(series.name);
+    boxes->setPen(QPen(colour, 1.2));
+    boxes->setBrush(fill);
+    boxes->setMedianPen(QPen(ink, 2.0));
+    boxes->setWhiskerPen(QPen(colour, 1.2));
+    boxes->setWhiskerBarPen(QPen(colour, 1.2));
+    boxes->setWidth(0.5);
+    boxes->setWhiskerWidth(0.25);
+    boxes->setOutlierStyle(QCPScatterStyle(QCPScatterStyle::ssCircle, colour, kMarkDot_px));
+    std::map<double, std::vector<double>> groups;
+    for (std::size_t i = 0; i < series.x.size(); ++i) groups[series.x[i]].push_back(series.y[i]);
+    for (const auto& [x, values] : groups) {
+        const BoxOfValues box = boxOf(values);
+        boxes->addData(x, box.low_whisker, box.lower_quartile, box.median, box.upper_quartile,
+                       box.high_whisker, QVector<double>(box.outliers.begin(), box.outliers.end()));
+    }
+}
+
 void PlotCanvas::Parts::addSeries(Panel& panel, const PlotSeries& series) {
     if (series.style == SeriesStyle::Bars) return addBars(panel, series);
+    if (series.style == SeriesStyle::Boxes) return addBoxes(panel, series);
     QCPAxis *x = panel.rect->axis(QCPAxis::atBottom), *y = panel.rect->axis(QCPAxis::atLeft);
     Shown shown;
     shown.series = &series;
@@ -509,7 +536,7 @@ void PlotCanvas::Parts::refill(std::size_t index) {
         }
     }
     for (const PlotSeries& series : plot.panels[index].series) {
-        if (series.style != SeriesStyle::Bars) continue;
+        if (series.style != SeriesStyle::Bars && series.style != SeriesStyle::Boxes) continue;
         for (const double y : series.y) seen.add(y);
     }
     if (plot.panels[index].from_zero) seen.add(0.0);

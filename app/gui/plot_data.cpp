@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "app/gui/report_words.hpp"
+
 namespace terrawalk::gui {
 
 namespace {
@@ -647,11 +649,82 @@ Plot tuningPlot(const SurveyReport& report) {
         after.y.push_back(*tuning.left_out_after);
     }
     plot.panels.push_back({text(tuning.loss), {}, 3, {std::move(before), std::move(after)}, true});
-    plot.note = text(tuning.decision) + " " +
+    plot.note = reportWords(tuning.decision) + " " +
                 QCoreApplication::translate("PlotData", "%1, %2 evaluations, seed %3.")
                     .arg(text(tuning.optimiser))
                     .arg(tuning.evaluations)
                     .arg(tuning.seed);
+    return plot;
+}
+
+Plot convergencePlot(const TuningData* tuning) {
+    Plot plot;
+    if (tuning == nullptr || tuning->traces.empty()) {
+        plot.reason = QCoreApplication::translate(
+            "PlotData",
+            "No search is known. Tune the survey on its marks, or open a file that terrawalk tune wrote.");
+        return plot;
+    }
+    const std::string& loss = tuning->traces.back().loss;
+    plot.x_label = QCoreApplication::translate("PlotData", "Evaluations of the loss");
+    PlotPanel panel{text(loss), {}, 3, {}, true};
+    for (const TuneTrace& trace : tuning->traces) {
+        if (trace.loss != loss) continue;
+        const auto ink = static_cast<SeriesInk>(panel.series.size() % 6);
+        PlotSeries line{
+            QCoreApplication::translate("PlotData", "%1, seed %2").arg(text(trace.optimiser)).arg(trace.seed),
+            SeriesStyle::Line,
+            ink,
+            {},
+            {},
+            {},
+            true};
+        // The best stays the best until a better one is found: a stair.
+        for (const ConvergencePoint& point : trace.convergence) {
+            if (!line.y.empty()) {
+                line.x.push_back(static_cast<double>(point.evaluations));
+                line.y.push_back(line.y.back());
+            }
+            line.x.push_back(static_cast<double>(point.evaluations));
+            line.y.push_back(point.best_loss);
+        }
+        panel.series.push_back(std::move(line));
+    }
+    plot.note =
+        QCoreApplication::translate("PlotData", "The least loss found so far; it counts every evaluation.");
+    plot.panels.push_back(std::move(panel));
+    return plot;
+}
+
+Plot optimisersPlot(const TuningData* tuning) {
+    Plot plot;
+    const OptimiserTable table = tuning == nullptr                  ? OptimiserTable()
+                                 : tuning->table.optimisers.empty() ? endLosses(tuning->traces)
+                                                                    : tuning->table;
+    if (table.optimisers.empty()) {
+        plot.reason = QCoreApplication::translate(
+            "PlotData",
+            "Nothing to compare yet. Tune with several optimisers or seeds, or open the CSV of an experiment "
+            "such as terrawalk experiment fig10.");
+        return plot;
+    }
+    plot.x_label = QCoreApplication::translate("PlotData", "Optimiser");
+    PlotSeries boxes;
+    boxes.style = SeriesStyle::Boxes;
+    std::size_t most = 0;
+    for (std::size_t i = 0; i < table.optimisers.size(); ++i) {
+        plot.categories << text(table.optimisers[i].optimiser);
+        for (const double loss : table.optimisers[i].losses) {
+            boxes.x.push_back(static_cast<double>(i));
+            boxes.y.push_back(loss);
+        }
+        most = std::max(most, table.optimisers[i].losses.size());
+    }
+    plot.panels.push_back({text(table.quantity), {}, 3, {std::move(boxes)}, false});
+    plot.note = QCoreApplication::translate(
+                    "PlotData",
+                    "Up to %1 searches each. Box: quartiles and median; whiskers: 1.5 box lengths at most.")
+                    .arg(most);
     return plot;
 }
 
@@ -661,7 +734,10 @@ Plot notProcessed() {
     return plot;
 }
 
-Plot unnamedPlot(PlotKind kind, std::size_t run, const Survey& survey, const Products* products) {
+Plot unnamedPlot(PlotKind kind, std::size_t run, const Survey& survey, const Products* products,
+                 const TuningData* tuning) {
+    if (kind == PlotKind::Convergence) return convergencePlot(tuning);
+    if (kind == PlotKind::Optimisers) return optimisersPlot(tuning);
     if (plotsOneRun(kind) && run >= survey.runs.size()) return {};
     if (kind <= PlotKind::Range) return sensorPlot(kind, survey.runs[run]);
     if (products == nullptr) return notProcessed();
@@ -714,7 +790,9 @@ const std::vector<PlotKind>& allPlots() {
                                            PlotKind::ErrorHistogram,
                                            PlotKind::QuantileQuantile,
                                            PlotKind::CrossValidation,
-                                           PlotKind::Tuning};
+                                           PlotKind::Tuning,
+                                           PlotKind::Convergence,
+                                           PlotKind::Optimisers};
     return all;
 }
 
@@ -758,6 +836,10 @@ QString plotName(PlotKind kind) {
             return QCoreApplication::translate("PlotData", "Cross-validation");
         case PlotKind::Tuning:
             return QCoreApplication::translate("PlotData", "Tuning");
+        case PlotKind::Convergence:
+            return QCoreApplication::translate("PlotData", "Convergence");
+        case PlotKind::Optimisers:
+            return QCoreApplication::translate("PlotData", "Optimisers compared");
     }
     return {};
 }
@@ -792,8 +874,13 @@ QString likelySensor(PlotKind kind) {
     }
 }
 
-Plot plotOf(PlotKind kind, std::size_t run, const Survey& survey, const Products* products) {
-    Plot plot = unnamedPlot(kind, run, survey, products);
+bool plotsSearches(PlotKind kind) {
+    return kind == PlotKind::Convergence || kind == PlotKind::Optimisers;
+}
+
+Plot plotOf(PlotKind kind, std::size_t run, const Survey& survey, const Products* products,
+            const TuningData* tuning) {
+    Plot plot = unnamedPlot(kind, run, survey, products, tuning);
     plot.title = plotName(kind);
     if (plotsOneRun(kind) && run < survey.runs.size()) {
         plot.title =

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/pipeline/process.hpp"
+#include "app/pipeline/tune_trace.hpp"
 #include "survey/survey.hpp"
 
 namespace terrawalk::gui {
@@ -33,6 +34,8 @@ enum class PlotKind {
     QuantileQuantile,
     CrossValidation,
     Tuning,
+    Convergence,
+    Optimisers,
 };
 
 enum class SeriesStyle {
@@ -40,6 +43,7 @@ enum class SeriesStyle {
     Dots,   ///< in any order
     Bars,   ///< about x, one unit of `bar_width` wide
     Guide,  ///< a thin line to compare with
+    Boxes,  ///< quartiles, whiskers and outliers of the values that share an x
 };
 /// Of the series' colours; each is told apart from the others by readers who do not see all colours.
 enum class SeriesInk { First, Second, Third, Fourth, Fifth, Sixth, Quiet };
@@ -86,6 +90,10 @@ struct Plot {
 /// Pure.
 /// @param run       number of the run in the survey, for plots of one run
 /// @param products  null before processing
-[[nodiscard]] Plot plotOf(PlotKind kind, std::size_t run, const Survey& survey, const Products* products);
+/// @param tuning    of the searches that are known; null: none
+[[nodiscard]] Plot plotOf(PlotKind kind, std::size_t run, const Survey& survey, const Products* products,
+                          const TuningData* tuning = nullptr);
+/// Whether it shows searches for parameters, which may come from other files.
+[[nodiscard]] bool plotsSearches(PlotKind kind);
 
 }  // namespace terrawalk::gui

@@ -93,4 +93,30 @@ PlotPoints thinnedDots(std::span<const double> x, std::span<const double> y, con
     return points;
 }
 
+BoxOfValues boxOf(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const auto at = [&](double share) {
+        const double place = share * static_cast<double>(values.size() - 1);
+        const auto below = static_cast<std::size_t>(place);
+        const double above = values[std::min(below + 1, values.size() - 1)];
+        return values[below] + (place - static_cast<double>(below)) * (above - values[below]);
+    };
+    BoxOfValues box;
+    box.lower_quartile = at(0.25);
+    box.median = at(0.5);
+    box.upper_quartile = at(0.75);
+    const double reach = 1.5 * (box.upper_quartile - box.lower_quartile);
+    box.low_whisker = box.lower_quartile;
+    box.high_whisker = box.upper_quartile;
+    for (const double v : values) {
+        if (v < box.lower_quartile - reach || v > box.upper_quartile + reach) {
+            box.outliers.push_back(v);
+            continue;
+        }
+        box.low_whisker = std::min(box.low_whisker, v);
+        box.high_whisker = std::max(box.high_whisker, v);
+    }
+    return box;
+}
+
 }  // namespace terrawalk::gui

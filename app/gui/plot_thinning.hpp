@@ -25,4 +25,13 @@ struct PlotWindow {
 [[nodiscard]] PlotPoints thinnedDots(std::span<const double> x, std::span<const double> y,
                                      const PlotWindow& window);
 
+/// A sample as a box: quartiles as medians of the halves' ends (linear between values), whiskers to the
+/// farthest values within 1.5 box lengths, the others one by one. Source: Tukey 1977.
+struct BoxOfValues {
+    double low_whisker = 0.0, lower_quartile = 0.0, median = 0.0, upper_quartile = 0.0, high_whisker = 0.0;
+    std::vector<double> outliers;
+};
+/// @param values  one or more, finite
+[[nodiscard]] BoxOfValues boxOf(std::vector<double> values);
+
 }  // namespace terrawalk::gui

@@ -82,6 +82,11 @@ PlotsView::PlotsView(Selection& selection, QWidget* parent) : QWidget(parent), s
         if (selection_.stretch())
             Q_EMIT excludeAsked(*selection_.stretch(), sensors_->currentData().toString());
     });
+    open_ = new QPushButton(tr("Open a tuning or an experiment…"));
+    open_->setObjectName("openSearches");
+    open_->setToolTip(
+        tr("A file that terrawalk tune wrote, or the CSV of terrawalk experiment fig10 and its like"));
+    connect(open_, &QPushButton::clicked, this, &PlotsView::searchesAsked);
     canvas_ = new PlotCanvas;
     connect(canvas_, &PlotCanvas::stretchDragged, this, [this](double from_s, double to_s) {
         selection_.select({run(), from_s, to_s});
@@ -103,6 +108,7 @@ PlotsView::PlotsView(Selection& selection, QWidget* parent) : QWidget(parent), s
     head->addSpacing(kGrid_px);
     head->addWidget(sensors_);
     head->addWidget(exclude_);
+    head->addWidget(open_);
     auto* foot = new QVBoxLayout;
     foot->setContentsMargins(2 * kGrid_px, 0, 2 * kGrid_px, kGrid_px);
     foot->setSpacing(kGrid_px / 2);
@@ -163,6 +169,11 @@ void PlotsView::show(std::shared_ptr<const Survey> survey, std::shared_ptr<const
     renew();
 }
 
+void PlotsView::setTuning(std::shared_ptr<const TuningData> tuning) {
+    tuning_ = std::move(tuning);
+    if (plotsSearches(kind_)) renew();
+}
+
 QString PlotsView::run() const {
     return runs_->currentData().toString();
 }
@@ -192,7 +203,7 @@ void PlotsView::setPlot(PlotKind kind) {
 void PlotsView::renew() {
     Plot plot;
     if (survey_) {
-        plot = plotOf(kind_, runNumber(), *survey_, products_.get());
+        plot = plotOf(kind_, runNumber(), *survey_, products_.get(), tuning_.get());
     } else {
         plot.title = plotName(kind_);
         plot.reason = tr("Open a survey to see its plots here.");
@@ -205,6 +216,7 @@ void PlotsView::renew() {
          {static_cast<QWidget*>(runs_), static_cast<QWidget*>(sensors_), static_cast<QWidget*>(exclude_)}) {
         widget->setVisible(of_run);
     }
+    open_->setVisible(plotsSearches(kind_) && survey_);
     readout_->setText({});
     canvas_->show(std::move(plot));
     shadeSelection();

@@ -28,6 +28,7 @@ class PlotsView : public QWidget {
     void show(std::shared_ptr<const Survey> survey, std::shared_ptr<const SurveyMap> map,
               std::shared_ptr<const Products> products);
     using QWidget::show;
+    void setTuning(std::shared_ptr<const TuningData> tuning);
     void setPlot(PlotKind kind);
     /// Nothing happens for what is no run.
     void setRun(const QString& run);
@@ -41,6 +42,8 @@ class PlotsView : public QWidget {
   Q_SIGNALS:
     /// @param sensor  as EditedSensor is named: "all", "gnss" and so on
     void excludeAsked(const terrawalk::gui::TrackStretch& stretch, const QString& sensor);
+    /// Of other files shall be shown.
+    void searchesAsked();
 
   private:
     void fillList();
@@ -51,12 +54,14 @@ class PlotsView : public QWidget {
     Selection& selection_;
     std::shared_ptr<const Survey> survey_;
     std::shared_ptr<const Products> products_;
+    std::shared_ptr<const TuningData> tuning_;
     PlotKind kind_ = PlotKind::GnssPosition;
     QListWidget* list_ = nullptr;
     QLabel* title_ = nullptr;
     QComboBox* runs_ = nullptr;
     QComboBox* sensors_ = nullptr;
     QPushButton* exclude_ = nullptr;
+    QPushButton* open_ = nullptr;
     QLabel* readout_ = nullptr;
     QLabel* note_ = nullptr;
     PlotCanvas* canvas_ = nullptr;

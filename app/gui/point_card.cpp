@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/gui/theme.hpp"
+#include "app/pipeline/place_report.hpp"
 
 namespace terrawalk::gui {
 
@@ -49,22 +50,6 @@ void addCell(const Products& products, const Eigen::Vector3d& map_m, PlaceFacts&
 
 }  // namespace
 
-std::optional<NearestSample> nearestSample(const Products& products,
-                                           const std::vector<Eigen::Vector3d>& points_map_m, double x_map_m,
-                                           double y_map_m) {
-    std::optional<NearestSample> nearest;
-    double least = HUGE_VAL;
-    const Eigen::Vector2d place(x_map_m, y_map_m);
-    for (std::size_t i = 0; i < points_map_m.size(); ++i) {
-        if (products.ground_points[i].state != GroundPointState::Used) continue;
-        const double square = (points_map_m[i].head<2>() - place).squaredNorm();
-        if (!(square < least)) continue;
-        least = square;
-        nearest = NearestSample{i, std::sqrt(square)};
-    }
-    return nearest;
-}
-
 PlaceFacts placeFacts(const Survey& survey, const Products& products,
                       const std::vector<Eigen::Vector3d>& points_map_m, const Eigen::Vector3d& map_m) {
     PlaceFacts facts;
@@ -72,7 +57,7 @@ PlaceFacts placeFacts(const Survey& survey, const Products& products,
     addCell(products, map_m, facts);
     facts.lines.emplace_back("E", metres(map_m.x()));
     facts.lines.emplace_back("N", metres(map_m.y()));
-    const auto nearest = nearestSample(products, points_map_m, map_m.x(), map_m.y());
+    const auto nearest = nearestCarrying(products, points_map_m, map_m.head<2>());
     if (!nearest) return facts;
     const GroundPoint& point = products.ground_points[nearest->point];
     const QString run = QString::fromStdString(survey.runs[point.run].id);

@@ -12,17 +12,6 @@
 
 namespace terrawalk::gui {
 
-/// The ground point next to a place that carries the surface.
-struct NearestSample {
-    std::size_t point = 0;  ///< of the products
-    double distance_m = 0.0;
-};
-/// In plan, among the points that were used. Pure.
-/// @param points_map_m  one for each ground point of the products
-[[nodiscard]] std::optional<NearestSample> nearestSample(const Products& products,
-                                                         const std::vector<Eigen::Vector3d>& points_map_m,
-                                                         double x_map_m, double y_map_m);
-
 /// What is known of one place of the surface, line by line: what, and how much.
 struct PlaceFacts {
     QString title;

@@ -42,7 +42,7 @@ RasterPicture heights(const Products& products) {
     return {RasterLayer::Height,
             products.dem.geometry,
             withOverviews(image.convertToFormat(QImage::Format_ARGB32_Premultiplied)),
-            {colours(ramp), relief.lowest_m, relief.highest_m, false, "m", {}}};
+            {colours(ramp), relief.lowest_m, relief.highest_m, false, false, "m", {}, {}}};
 }
 
 /// The few largest values, at the edge of the survey, must not take the colours from all others.
@@ -73,7 +73,7 @@ RasterPicture values(const Products& products, RasterLayer layer, std::span<cons
             line[column] = qRgb(c[0], c[1], c[2]);
         }
     }
-    return {layer, g, withOverviews(image), {colours(ramp), 0.0, high, above, unit, {}}};
+    return {layer, g, withOverviews(image), {colours(ramp), 0.0, high, above, false, unit, {}, {}}};
 }
 
 RasterPicture sources(const Products& products) {
@@ -95,15 +95,60 @@ RasterPicture sources(const Products& products) {
              0.0,
              0.0,
              false,
+             false,
              {},
              {QCoreApplication::translate("RasterPicture", "measured"),
               QCoreApplication::translate("RasterPicture", "interpolated"),
-              QCoreApplication::translate("RasterPicture", "extrapolated")}}};
+              QCoreApplication::translate("RasterPicture", "extrapolated")},
+             {}}};
+}
+
+/// As near to white as says that it is no more than error.
+QRgb faint(const Colour& c) {
+    const auto mixed = [](std::uint8_t part) {
+        return 255 - (255 - part) * 3 / 10;
+    };
+    return qRgb(mixed(c[0]), mixed(c[1]), mixed(c[2]));
+}
+
+/// White is no change, and both ends are as far from it.
+RasterPicture changes(const Products& products, const HeightChange& change) {
+    const std::vector<Colour> ramp = divergingRamp();
+    const GridGeometry& g = products.dem.geometry;
+    const auto& metres = change.difference.change.heights_m;
+    std::vector<float> sizes;
+    for (const float m : metres) sizes.push_back(std::abs(m));
+    const double end = upperEnd(sizes);
+    RasterLegend legend{colours(ramp), -end, end, false, false, "m", {}, {}};
+    QImage image = emptyImage(g);
+    for (std::size_t row = 0; row < g.rows; ++row) {
+        auto* line = reinterpret_cast<QRgb*>(image.scanLine(static_cast<int>(row)));
+        for (std::size_t column = 0; column < g.columns; ++column) {
+            const std::size_t cell = row * g.columns + column;
+            const auto m = static_cast<double>(metres[cell]);
+            if (std::isnan(m)) continue;
+            legend.open_above = legend.open_above || m > end;
+            legend.open_below = legend.open_below || m < -end;
+            const Colour c = rampColour(ramp, 0.5 + 0.5 * m / end);
+            const bool sure = !change.has_sigma || change.difference.significance.heights_m[cell] != 0.0F;
+            line[column] = sure ? qRgb(c[0], c[1], c[2]) : faint(c);
+        }
+    }
+    legend.notes << QCoreApplication::translate("RasterPicture", "less %1")
+                        .arg(QString::fromStdString(change.earlier));
+    if (change.has_sigma) legend.notes << QCoreApplication::translate("RasterPicture", "pale: within 1.96 σ");
+    if (change.has_sigma && !change.earlier_has_sigma)
+        legend.notes << QCoreApplication::translate("RasterPicture", "σ of the survey alone");
+    return {RasterLayer::Change, g, withOverviews(image), legend};
 }
 
 }  // namespace
 
-RasterPicture rasterPicture(const Products& products, RasterLayer layer) {
+RasterPicture rasterPicture(const Products& products, RasterLayer layer, const HeightChange* change) {
+    if (layer == RasterLayer::Change) {
+        const bool fits = change != nullptr && change->difference.change.geometry == products.dem.geometry;
+        return fits ? changes(products, *change) : RasterPicture{};
+    }
     if (!hasLayer(products, layer)) return {};
     switch (layer) {
         case RasterLayer::Height:
@@ -115,6 +160,7 @@ RasterPicture rasterPicture(const Products& products, RasterLayer layer) {
                           QCoreApplication::translate("RasterPicture", "points/m²"));
         case RasterLayer::Source:
             return sources(products);
+        case RasterLayer::Change:
         case RasterLayer::None:
             break;
     }
@@ -155,7 +201,7 @@ QRectF extentOf(const GridGeometry& g) {
 }
 
 bool hasLayer(const Products& products, RasterLayer layer) {
-    if (layer == RasterLayer::None) return false;
+    if (layer == RasterLayer::None || layer == RasterLayer::Change) return false;
     return layer == RasterLayer::Height ? products.dem.geometry.size() > 0 : products.uncertainty.has_value();
 }
 

@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "app/gui/map_transform.hpp"
+#include "app/gui/view_state.hpp"
 #include "app/pipeline/process.hpp"
 
 namespace terrawalk::gui {
-
-enum class RasterLayer { None, Height, Uncertainty, Density, Source };
 
 /// What the colours of a layer stand for.
 struct RasterLegend {
@@ -21,8 +20,10 @@ struct RasterLegend {
     double low = 0.0;
     double high = 0.0;
     bool open_above = false;  ///< some values lie above `high` and have its colour
+    bool open_below = false;  ///< the same for `low`
     QString unit;
     QStringList classes;
+    QStringList notes;  ///< lines below
 };
 
 /// A layer as a picture with overviews, each half as wide as the one before: drawing costs by the screen,
@@ -36,10 +37,13 @@ struct RasterPicture {
 
 /// Colours a layer of the products; what they lack gives a picture without levels. Takes a while for large
 /// rasters. Pure.
-[[nodiscard]] RasterPicture rasterPicture(const Products& products, RasterLayer layer);
+/// @param change  for its layer alone
+[[nodiscard]] RasterPicture rasterPicture(const Products& products, RasterLayer layer,
+                                          const HeightChange* change = nullptr);
 void drawRaster(QPainter& painter, const RasterPicture& picture, const MapTransform& transform);
 
 [[nodiscard]] QRectF extentOf(const GridGeometry& geometry);
+/// Whether the products alone have it.
 [[nodiscard]] bool hasLayer(const Products& products, RasterLayer layer);
 
 /// What is known of one place of the surface.

@@ -16,6 +16,14 @@ QStringList recentSurveys() {
     return paths;
 }
 
+QString lastFolder() {
+    return QSettings().value("last_folder").toString();
+}
+
+void rememberFolder(const QString& path) {
+    QSettings().setValue("last_folder", QFileInfo(path).absolutePath());
+}
+
 void rememberSurvey(const QString& path) {
     const QString whole = QFileInfo(path).absoluteFilePath();
     QStringList paths = recentSurveys();

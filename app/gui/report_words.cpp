@@ -1,14 +1,20 @@
 #include "app/gui/report_words.hpp"
 
 #include <QCoreApplication>
+#include <QHash>
+#include <QRegularExpression>
+#include <algorithm>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace terrawalk::gui {
 
 namespace {
 
-// Only for the tool that collects texts: what the reports say.
-[[maybe_unused]] constexpr const char* kKnown[] = {
+// What the core says in English. Here for the tool that collects texts, and to know sentences with numbers
+// and names in them again.
+constexpr const char* kWords[] = {
     QT_TRANSLATE_NOOP("Report", "before fusion"),
     QT_TRANSLATE_NOOP("Report", "fused"),
     QT_TRANSLATE_NOOP("Report", "surface"),
@@ -37,12 +43,274 @@ namespace {
     QT_TRANSLATE_NOOP("Report", "statistical outlier"),
     QT_TRANSLATE_NOOP("Report", "isolated"),
     QT_TRANSLATE_NOOP("Report", "above ground"),
+    QT_TRANSLATE_NOOP("Report", "reading"),
+    QT_TRANSLATE_NOOP("Report", "writing"),
+    QT_TRANSLATE_NOOP("Report", "comparing"),
+    QT_TRANSLATE_NOOP("Report", "done"),
+    QT_TRANSLATE_NOOP("Report", "adjusting all runs"),
+    QT_TRANSLATE_NOOP("Report", "making the surface"),
+    QT_TRANSLATE_NOOP("Report", "processed"),
+    QT_TRANSLATE_NOOP("Report", "tuned"),
+    QT_TRANSLATE_NOOP("Report", "searching"),
+    QT_TRANSLATE_NOOP("Report", "triangulating"),
+    QT_TRANSLATE_NOOP("Report", "gridding"),
+    QT_TRANSLATE_NOOP("Report", "contours"),
+    QT_TRANSLATE_NOOP("Report", "joining contours"),
+    QT_TRANSLATE_NOOP("Report", "smoothing"),
+    QT_TRANSLATE_NOOP("Report", "looking for statistical outliers"),
+    QT_TRANSLATE_NOOP("Report", "looking for isolated points"),
+    QT_TRANSLATE_NOOP("Report", "looking for what stands above the ground"),
+    QT_TRANSLATE_NOOP("Report", "points cleaned"),
+    QT_TRANSLATE_NOOP("Report", "looking for terrace edges"),
+    QT_TRANSLATE_NOOP("Report", "hashing the inputs"),
+    QT_TRANSLATE_NOOP("Report", "fitting the variogram"),
+    QT_TRANSLATE_NOOP("Report", "fitting the B-spline"),
+    QT_TRANSLATE_NOOP("Report", "reading breaklines"),
+    QT_TRANSLATE_NOOP("Report", "the surface"),
+    QT_TRANSLATE_NOOP("Report", "the ground points"),
+    QT_TRANSLATE_NOOP("Report", "the ground below the array"),
+    QT_TRANSLATE_NOOP("Report", "none"),
+    QT_TRANSLATE_NOOP("Report", "no mark was measured"),
+    QT_TRANSLATE_NOOP("Report", "no check mark was compared"),
+    QT_TRANSLATE_NOOP("Report", "none was measured"),
+    QT_TRANSLATE_NOOP("Report", "no surface was made"),
+    QT_TRANSLATE_NOOP("Report", "an unknown area"),
+    QT_TRANSLATE_NOOP("Report", "too high"),
+    QT_TRANSLATE_NOOP("Report", "too low"),
+    QT_TRANSLATE_NOOP("Report", "No accuracy can be stated: the survey has no marks to compare with."),
+    QT_TRANSLATE_NOOP("Report",
+                      "No accuracy can be stated: no check mark could be compared with the product."),
+    QT_TRANSLATE_NOOP("Report",
+                      "The survey has no marks measured by total station. Nothing independent says how far "
+                      "the terrain model is from the ground."),
+    QT_TRANSLATE_NOOP("Report", "No check mark could be compared with the product."),
+    QT_TRANSLATE_NOOP(
+        "Report",
+        "Whether the check marks stand among plants or in the open is not known: the points were not looked "
+        "through for what stands on the ground, or too few lie near the marks."),
+    QT_TRANSLATE_NOOP("Report", "no GNSS: raw positions are the start and the velocity summed up from there"),
+    QT_TRANSLATE_NOOP(
+        "Report", "no known mark to zero the barometer on: it is tied to the median GNSS height of the run"),
+    QT_TRANSLATE_NOOP("Report", "no barometer in use: GNSS height is used whatever the fix"),
+    QT_TRANSLATE_NOOP("Report", "GNSS height of any fix stands in there"),
+    QT_TRANSLATE_NOOP("Report", "nothing measures height there, the walk is taken to climb little"),
+    QT_TRANSLATE_NOOP("Report", "nothing in the log measures height: it is held near that of the start"),
+    QT_TRANSLATE_NOOP("Report",
+                      "the adjustment of all runs has no solution: the tracks are those of the filter, "
+                      "crossovers are not used"),
+    QT_TRANSLATE_NOOP("Report", "it walks straight, but no mark lies near its end"),
+    QT_TRANSLATE_NOOP("Report", "it has no positions"),
+    QT_TRANSLATE_NOOP("Report", "as told"),
+    QT_TRANSLATE_NOOP("Report", "no log has positions: say where the zero point is"),
+    QT_TRANSLATE_NOOP("Report", "it is a second table of marks"),
+    QT_TRANSLATE_NOOP("Report", "it is a trajectory, no log of the array"),
+    QT_TRANSLATE_NOOP("Report", "it is neither a log of the array nor a table of marks"),
+    QT_TRANSLATE_NOOP("Report", "testing on parts left out"),
+    QT_TRANSLATE_NOOP("Report", "tuning"),
+    QT_TRANSLATE_NOOP("Report",
+                      "The search found nothing better than the values that it started from; these stay."),
+    QT_TRANSLATE_NOOP("Report",
+                      "There is one part only, so nothing can be left out to test the tuned values on: the "
+                      "default is not replaced by them."),
 };
+constexpr const char* kSentences[] = {
+    QT_TRANSLATE_NOOP("Report", "%1, best loss %2"),
+    QT_TRANSLATE_NOOP("Report", "looking at the effect of %1"),
+    QT_TRANSLATE_NOOP("Report", "The tuned values hold out better than those before: %1."),
+    QT_TRANSLATE_NOOP("Report",
+                      "The tuned values do not hold out better than those before: %1. `process --tune` does "
+                      "not adopt them."),
+    QT_TRANSLATE_NOOP("Report",
+                      "on parts left out of the tuning the loss goes from %1 to %2, a gain of %3 with a "
+                      "standard error of %4"),
+    QT_TRANSLATE_NOOP("Report", "reading %1"),
+    QT_TRANSLATE_NOOP("Report", "writing %1"),
+    QT_TRANSLATE_NOOP("Report", "fusing %1"),
+    QT_TRANSLATE_NOOP("Report", "smoothing %1"),
+    QT_TRANSLATE_NOOP("Report", "fused %1"),
+    QT_TRANSLATE_NOOP("Report", "Height error of %1 (RMSE)"),
+    QT_TRANSLATE_NOOP("Report", "at %1"),
+    QT_TRANSLATE_NOOP("Report", "%1 check marks"),
+    QT_TRANSLATE_NOOP("Report", "%1 check mark"),
+    QT_TRANSLATE_NOOP("Report", "%1 control marks"),
+    QT_TRANSLATE_NOOP("Report", "%1 control mark"),
+    QT_TRANSLATE_NOOP("Report", "%1 marks"),
+    QT_TRANSLATE_NOOP("Report", "%1 mark"),
+    QT_TRANSLATE_NOOP("Report", "%1 comparisons"),
+    QT_TRANSLATE_NOOP("Report", "%1 comparison"),
+    QT_TRANSLATE_NOOP("Report", "at %1; %2 before fusion and %3 now at the %4 that both reach"),
+    QT_TRANSLATE_NOOP("Report", "at %1; %2 before fusion"),
+    QT_TRANSLATE_NOOP("Report", "at %1; sensors as they are"),
+    QT_TRANSLATE_NOOP("Report", "of %1 measured"),
+    QT_TRANSLATE_NOOP("Report", "of %1 measured; %2 beside them"),
+    QT_TRANSLATE_NOOP("Report", "none was measured; %1 beside them"),
+    QT_TRANSLATE_NOOP("Report", "%1 m cells"),
+    QT_TRANSLATE_NOOP("Report", "%1 triangulated; %2 ground points"),
+    QT_TRANSLATE_NOOP("Report",
+                      "Heights of %1 differ from %2 by %3 (vertical RMSE; 95 % interval %4 to %5). With the "
+                      "marks' own error of %6 it is %7."),
+    QT_TRANSLATE_NOOP("Report",
+                      "Heights of %1 differ from %2 by %3 (vertical RMSE; 95 % interval %4 to %5)."),
+    QT_TRANSLATE_NOOP(
+        "Report",
+        "Heights of %1 differ from %2 by %3 (vertical RMSE). With the marks' own error of %4 it is %5."),
+    QT_TRANSLATE_NOOP("Report", "Heights of %1 differ from %2 by %3 (vertical RMSE)."),
+    QT_TRANSLATE_NOOP("Report",
+                      "Tested with %1 check marks, at least the %2 that the ASPRS Positional Accuracy "
+                      "Standards, Edition 2, ask for. No accuracy class is claimed: that takes a class to "
+                      "test against and check marks on open ground."),
+    QT_TRANSLATE_NOOP("Report",
+                      "Tested using the reduced number of %1. The ASPRS Positional Accuracy Standards, "
+                      "Edition 2, ask for %2; with fewer, no accuracy class can be claimed."),
+    QT_TRANSLATE_NOOP("Report",
+                      "Tested %1 vertical accuracy at 95 % confidence level (NSSDA, FGDC-STD-007.3-1998: "
+                      "1.9600 times the RMSE of %2)."),
+    QT_TRANSLATE_NOOP(
+        "Report",
+        "By the formula of the NSSDA (FGDC-STD-007.3-1998) it would be %1 vertical accuracy at 95 % "
+        "confidence level (1.9600 times the RMSE of %2), but the NSSDA asks for %3 and more."),
+    QT_TRANSLATE_NOOP("Report",
+                      "Errors in plan turn into errors of height on slopes: the %1 along an axis seen at the "
+                      "stands, times the slope at %2, is %3 (RMSE), %4 % of the mean square height error."),
+    QT_TRANSLATE_NOOP("Report",
+                      "Before fusion the height RMSE was %1 (%2); at the same %3 it is %4 now, %5 % less."),
+    QT_TRANSLATE_NOOP("Report",
+                      "Before fusion the height RMSE was %1 (%2); at the same %3 it is %4 now, %5 % more."),
+    QT_TRANSLATE_NOOP("Report", "Before fusion the height RMSE was %1 (%2); at the same %3 it is %4 now."),
+    QT_TRANSLATE_NOOP("Report",
+                      "%1 of %2 heights (%3 %) lie within 1.96 predicted sigmas; 95 % would be right. The "
+                      "mean square of error over sigma is %4; 1 would be right."),
+    QT_TRANSLATE_NOOP("Report",
+                      "%1 of %2 heights (%3 %) lie within 1.96 predicted sigmas; 95 % would be right. The "
+                      "mean square of error over sigma is %4; 1 would be right, but so few decide little."),
+    QT_TRANSLATE_NOOP("Report",
+                      "The heights lie %1 on average (%2): more than chance explains. Look for a wrong array "
+                      "height, a wrong start mark or a shifted datum."),
+    QT_TRANSLATE_NOOP(
+        "Report",
+        "%1 is off by %2, more than %3 times the RMSE of the others: a possible blunder. It is counted."),
+    QT_TRANSLATE_NOOP("Report", "%1 lies outside the surface and could not be compared: %2."),
+    QT_TRANSLATE_NOOP("Report", "%1 lie outside the surface and could not be compared: %2."),
+    QT_TRANSLATE_NOOP("Report", "%1 has no ground point near enough and could not be compared: %2."),
+    QT_TRANSLATE_NOOP("Report", "%1 have no ground point near enough and could not be compared: %2."),
+    QT_TRANSLATE_NOOP("Report", "%1 was stood on without a sound range and could not be compared: %2."),
+    QT_TRANSLATE_NOOP("Report", "%1 were stood on without a sound range and could not be compared: %2."),
+    QT_TRANSLATE_NOOP("Report",
+                      "No check mark was compared. %1 stand in the report apart; errors at marks that may "
+                      "have served alignment or tuning do not certify the product."),
+    QT_TRANSLATE_NOOP(
+        "Report",
+        "No check mark was compared, and none of the %1 tells an error that the estimator has not seen."),
+    QT_TRANSLATE_NOOP("Report",
+                      "Standing on %1, the fused position was off by %2 in plan (RMSE). By the NSSDA that is "
+                      "%3 at 95 % confidence."),
+    QT_TRANSLATE_NOOP("Report", "Standing on %1, the fused position was off by %2 in plan (RMSE)."),
+    QT_TRANSLATE_NOOP("Report",
+                      "%1 is a small sample: the true error may differ a good deal from the figure found."),
+    QT_TRANSLATE_NOOP("Report",
+                      "%1 are a small sample: the true error may differ a good deal from the figure found."),
+    QT_TRANSLATE_NOOP(
+        "Report",
+        "The estimator was tied to the mark or tuned on it in %1; these are listed and never counted."),
+    QT_TRANSLATE_NOOP("Report", "Before fusion there is no surface to compare with: %1."),
+    QT_TRANSLATE_NOOP("Report", "The heights have no standard errors: %1."),
+    QT_TRANSLATE_NOOP("Report", "The heights have no standard errors, and there is no multiband file: %1."),
+    QT_TRANSLATE_NOOP("Report", "Run %1 has no records for %2 s: the track there is a guess."),
+    QT_TRANSLATE_NOOP("Report", "%1 (runs %2)"),
+    QT_TRANSLATE_NOOP("Report", "no epoch while the array stood on %1"),
+    QT_TRANSLATE_NOOP("Report",
+                      "no range while the array stood on %1: its height above the mark is taken to be %2 m"),
+    QT_TRANSLATE_NOOP("Report", "the barometer was silent on the marks: it is zeroed %1 s away from one"),
+    QT_TRANSLATE_NOOP("Report", "the barometer was silent for up to %1 s: %2"),
+    QT_TRANSLATE_NOOP("Report", "it walks straight and ends %1 m by GNSS from %2"),
+    QT_TRANSLATE_NOOP("Report", "its name says %1"),
+    QT_TRANSLATE_NOOP("Report", "it walks %1 m within %2 m"),
+    QT_TRANSLATE_NOOP("Report",
+                      "zero point: mean GNSS position of the ground where %1 of %2 walks start, %3 m apart "
+                      "at most; say where it is if you know it better"),
+    QT_TRANSLATE_NOOP("Report", "%1 is passed over: %2"),
+    QT_TRANSLATE_NOOP("Report",
+                      "the fixed-point run %1 has no target mark; name the mark, or make it an area walk"),
+    QT_TRANSLATE_NOOP("Report",
+                      "the fixed-point run %1 has no start mark; name the mark, or make it an area walk"),
+    QT_TRANSLATE_NOOP("Report", "two runs are named %1; give each run its own name"),
+    QT_TRANSLATE_NOOP(
+        "Report",
+        "%1 cannot be the name of a run; use letters, digits, '-', '_' and '.', the first one no '.'"),
+    QT_TRANSLATE_NOOP(
+        "Report",
+        "run %1 names the mark %2, which is not known; correct the name, or give the table with that mark"),
+};
+
+constexpr qsizetype kShortest = 32;
+
+/// A sentence with places for numbers and names.
+struct Pattern {
+    QRegularExpression expression;
+    const char* source;
+    qsizetype letters;
+};
+
+Pattern patternOf(const char* source) {
+    QString expression = QRegularExpression::escape(QString::fromUtf8(source));
+    const qsizetype letters = expression.size();
+    static const QRegularExpression place("\\\\%\\d");
+    // "30 check marks": only a number makes it one.
+    const bool count = QString::fromUtf8(source).startsWith("%1 ") && letters < kShortest;
+    expression.replace(place, count ? "(\\d[\\d.]*)" : "(.+?)");
+    return {QRegularExpression(QRegularExpression::anchoredPattern(expression)), source, letters};
+}
+
+/// The longest first: it says the most.
+const std::vector<Pattern>& patterns() {
+    static const std::vector<Pattern> all = [] {
+        std::vector<Pattern> made;
+        for (const char* source : kSentences) made.push_back(patternOf(source));
+        std::stable_sort(made.begin(), made.end(),
+                         [](const Pattern& a, const Pattern& b) { return a.letters > b.letters; });
+        return made;
+    }();
+    return all;
+}
+
+QString translated(const QString& words, int depth);
+
+std::optional<QString> bySentence(const QString& words, int depth) {
+    for (const Pattern& pattern : patterns()) {
+        const auto match = pattern.expression.match(words);
+        if (!match.hasMatch()) continue;
+        QString sentence = QCoreApplication::translate("Report", pattern.source);
+        // In one go: what is put in may hold a percent sign itself.
+        QString filled;
+        for (qsizetype i = 0; i < sentence.size(); ++i) {
+            const int place =
+                sentence[i] == '%' && i + 1 < sentence.size() ? sentence[i + 1].digitValue() : -1;
+            if (place < 1 || place > match.lastCapturedIndex()) {
+                filled += sentence[i];
+                continue;
+            }
+            filled += translated(match.captured(place), depth + 1);
+            ++i;
+        }
+        return filled;
+    }
+    return std::nullopt;
+}
+
+QString translated(const QString& words, int depth) {
+    const QString whole = QCoreApplication::translate("Report", words.toUtf8().constData());
+    if (whole != words || depth > 3) return whole;
+    return bySentence(words, depth).value_or(words);
+}
 
 }  // namespace
 
 QString reportWords(std::string_view words) {
-    return QCoreApplication::translate("Report", std::string(words).c_str());
+    const QString text = QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size()));
+    // English is what the core says already.
+    static_cast<void>(kWords);
+    if (QCoreApplication::translate("Report", "done") == QLatin1String("done")) return text;
+    return translated(text, 0);
 }
 
 }  // namespace terrawalk::gui

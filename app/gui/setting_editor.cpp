@@ -10,6 +10,7 @@
 #include <array>
 #include <utility>
 
+#include "app/gui/setting_words.hpp"
 #include "app/gui/survey_session.hpp"
 #include "app/gui/theme.hpp"
 
@@ -153,7 +154,7 @@ QString settingLabel(const QString& key) {
     }
     // The group's name says more than the first word of the key, which is the step itself.
     if (parts.size() > 1) name = parts.mid(1).join(' ') + " " + name;
-    return name.replace('_', ' ');
+    return settingWords(name.replace('_', ' '));
 }
 
 }  // namespace terrawalk::gui

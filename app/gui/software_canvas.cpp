@@ -1,6 +1,9 @@
 #include <QElapsedTimer>
+#include <QFutureWatcher>
 #include <QPainter>
 #include <QPointer>
+#include <QtConcurrent>
+#include <cstdint>
 
 #include "app/gui/software_rasteriser.hpp"
 #include "app/gui/terrain_canvas.hpp"
@@ -23,6 +26,7 @@ class SoftwareWidget final : public QWidget {
     }
 };
 
+/// Pictures are made beside the window, the newest frame next; the last one stands until then.
 class SoftwareCanvas final : public TerrainCanvas {
   public:
     explicit SoftwareCanvas(QWidget* parent) : widget_(new SoftwareWidget(parent)) {
@@ -31,58 +35,94 @@ class SoftwareCanvas final : public TerrainCanvas {
         widget_->paint = [this](QPainter& painter) {
             paintOn(painter);
         };
+        QObject::connect(&watcher_, &QFutureWatcherBase::finished, &watcher_, [this] {
+            if (watcher_.future().resultCount() > 0) take(watcher_.result());
+        });
     }
-    ~SoftwareCanvas() override { delete widget_.data(); }
+    ~SoftwareCanvas() override {
+        watcher_.waitForFinished();
+        delete widget_.data();
+    }
     QWidget* widget() override { return widget_; }
     void setFrame(const TerrainFrame& frame) override {
-        if (frame.scene != frame_.scene) store_.clear();
         frame_ = frame;
-        stale_ = true;
-        widget_->update();
+        ++wanted_;
+        start();
     }
     QImage picture() override {
-        QImage image(widget_->size() * widget_->devicePixelRatio(), QImage::Format_RGB32);
+        watcher_.waitForFinished();
+        Picture made = draw(frame_, size(), wanted_);
+        while (!made.complete) made = draw(frame_, size(), wanted_);
+        QImage image = made.image;
         image.setDevicePixelRatio(widget_->devicePixelRatio());
-        QPainter painter(&image);
-        paintOn(painter);
         return image;
     }
     QString about() const override { return QStringLiteral("software"); }
 
   private:
+    struct Picture {
+        QImage image;
+        std::size_t triangles = 0;
+        double ms = 0.0;
+        bool complete = true;
+        bool moving = false;
+        std::uint64_t frame = 0;
+    };
+
+    [[nodiscard]] QSize size() const { return widget_->size() * widget_->devicePixelRatio(); }
     void paintOn(QPainter& painter) {
-        const QSize size = widget_->size() * widget_->devicePixelRatio();
-        if (stale_ || image_.size() != size) draw(size);
-        painter.drawImage(widget_->rect(), image_);
+        if (image_.isNull()) {
+            painter.fillRect(widget_->rect(), frame_.sky_below);
+        } else {
+            painter.drawImage(widget_->rect(), image_);
+        }
+        if (asked_for_ != size()) start();
     }
-    void draw(QSize size) {
+    void start() {
+        if (watcher_.isRunning() || size().isEmpty()) return;
+        asked_for_ = size();
+        watcher_.setFuture(QtConcurrent::run([this, frame = frame_, size = asked_for_, number = wanted_] {
+            return draw(frame, size, number);
+        }));
+    }
+    void take(const Picture& made) {
+        image_ = made.image;
+        if (made.moving) moving_.took(made.triangles, made.ms);
+        widget_->update();
+        if (drawn) drawn(made.triangles, made.ms, made.complete && made.frame == wanted_);
+        if (!made.complete || made.frame != wanted_ || asked_for_ != size()) start();
+    }
+    /// By one thread at a time: the blocks are its own.
+    Picture draw(const TerrainFrame& frame, QSize size, std::uint64_t number) {
         QElapsedTimer timer;
         timer.start();
+        if (frame.scene != store_scene_) store_.clear();
+        store_scene_ = frame.scene;
+        Picture made;
         std::vector<BlockStore::Ready> blocks;
-        if (frame_.scene) {
-            blocks =
-                store_.ready(*frame_.scene,
-                             frame_.scene->select(frame_.camera, frame_.exaggeration, budget()), kBuildTime);
+        if (frame.scene) {
+            const std::size_t budget = (frame.moving ? 1 : 4) * moving_.triangles();
+            blocks = store_.ready(*frame.scene, frame.scene->select(frame.camera, frame.exaggeration, budget),
+                                  kBuildTime);
+            made.complete = store_.complete();
         }
-        std::size_t triangles = 0;
-        for (const auto& block : blocks) triangles += block.block->triangles.size();
-        image_ = rasterise(frame_, blocks, size, frame_.moving ? 1 : 2);
-        stale_ = !frame_.scene ? false : !store_.complete();
-        const double ms = static_cast<double>(timer.nsecsElapsed()) * 1e-6;
-        if (frame_.moving) moving_.took(triangles, ms);
-        if (stale_) widget_->update();
-        if (drawn) drawn(triangles, ms, !stale_);
-    }
-    [[nodiscard]] std::size_t budget() const {
-        return frame_.moving ? moving_.triangles() : 4 * moving_.triangles();
+        for (const auto& block : blocks) made.triangles += block.block->triangles.size();
+        made.image = rasterise(frame, blocks, size, frame.moving ? 1 : 2);
+        made.ms = static_cast<double>(timer.nsecsElapsed()) * 1e-6;
+        made.moving = frame.moving;
+        made.frame = number;
+        return made;
     }
 
     QPointer<SoftwareWidget> widget_;
     TerrainFrame frame_;
-    BlockStore store_;
-    FrameBudget moving_{40.0};
+    std::uint64_t wanted_ = 0;  ///< number of the newest frame
+    QSize asked_for_;
     QImage image_;
-    bool stale_ = true;
+    FrameBudget moving_{40.0};
+    BlockStore store_;
+    std::shared_ptr<const TerrainScene> store_scene_;
+    QFutureWatcher<Picture> watcher_;
 };
 
 }  // namespace

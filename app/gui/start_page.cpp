@@ -76,8 +76,18 @@ StartPage::StartPage(QWidget* parent) : QWidget(parent) {
     open->setObjectName("primary");
     open->setToolTip(tr("A survey.json, or a folder that holds one. Or drop it onto this window."));
     connect(open, &QPushButton::clicked, this, &StartPage::openAsked);
-    column->addWidget(open, 0, Qt::AlignLeft);
-    column->addWidget(label(tr("or drop a survey.json, or its folder, onto this window"), "quiet"));
+    auto* fresh = new QPushButton(icon("new"), tr("New survey from files…"));
+    fresh->setObjectName("start_new");
+    fresh->setToolTip(tr("From array logs and a table of marks. Or drop them onto this window."));
+    connect(fresh, &QPushButton::clicked, this, &StartPage::newAsked);
+    auto* row = new QHBoxLayout;
+    row->setSpacing(kGrid_px);
+    row->addWidget(open);
+    row->addWidget(fresh);
+    row->addStretch();
+    column->addLayout(row);
+    column->addWidget(
+        label(tr("or drop a survey.json, its folder, or logs and marks onto this window"), "quiet"));
     column->addSpacing(3 * kGrid_px);
 
     const auto samples = sampleSurveys();

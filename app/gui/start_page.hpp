@@ -25,6 +25,7 @@ class StartPage : public QWidget {
 
   Q_SIGNALS:
     void openAsked();
+    void newAsked();
     void surveyAsked(const QString& path);
     void sampleAsked(const QString& path);
 

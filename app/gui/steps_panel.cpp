@@ -7,6 +7,7 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QSignalBlocker>
+#include <QSpinBox>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
@@ -91,7 +92,11 @@ void StepsPanel::fillCards() {
         *cards_[StepKind::Tune], "step_tune", tr("Tune on the marks"),
         tr("Searches noise parameters of the method that make errors at control marks small, and takes "
            "them only where they hold out better on marks left out"));
-    connect(tune_, &QPushButton::clicked, &session_, &SurveySession::tune);
+    buildSearch(*cards_[StepKind::Tune]);
+    connect(tune_, &QPushButton::clicked, this, [this] {
+        session_.tune(static_cast<OptimiserKind>(optimiser_->currentData().toInt()),
+                      static_cast<std::size_t>(repeats_->value()));
+    });
     buildCheck(*cards_[StepKind::Check]);
     export_ = addButton(*cards_[StepKind::Export], "step_export", tr("Export…"),
                         tr("Writes DEM, mesh, tracks and report into a folder"));
@@ -99,6 +104,33 @@ void StepsPanel::fillCards() {
     command_ = addButton(*cards_[StepKind::Export], "step_command", tr("Copy as command"),
                          tr("The terrawalk command line that makes the same files"));
     connect(command_, &QPushButton::clicked, this, &StepsPanel::commandAsked);
+}
+
+void StepsPanel::buildSearch(StepCard& card) {
+    auto* row = new QWidget;
+    auto* layout = new QHBoxLayout(row);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(kGrid_px);
+    optimiser_ = new QComboBox;
+    optimiser_->setObjectName("optimiser");
+    optimiser_->setAccessibleName(tr("Who searches"));
+    optimiser_->setToolTip(
+        tr("The optimiser that searches; Plots > Optimisers compared shows them side by side"));
+    optimiser_->setFocusPolicy(Qt::StrongFocus);
+    for (const auto& [kind, name] : kOptimiserNames) {
+        optimiser_->addItem(QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())),
+                            static_cast<int>(kind));
+    }
+    repeats_ = new QSpinBox;
+    repeats_->setObjectName("repeats");
+    repeats_->setAccessibleName(tr("Searches"));
+    repeats_->setToolTip(tr("Searches with seeds one after the other; the best of them is taken"));
+    repeats_->setRange(1, 20);
+    repeats_->setPrefix(tr("× "));
+    repeats_->setFocusPolicy(Qt::StrongFocus);
+    layout->addWidget(optimiser_, 1);
+    layout->addWidget(repeats_);
+    card.addBody(row);
 }
 
 void StepsPanel::buildCheck(StepCard& card) {
@@ -161,8 +193,8 @@ void StepsPanel::themeChanged() {
 void StepsPanel::showProgress(double fraction, const QString& step, double seconds_left) {
     if (!session_.busy()) return;
     bar_->setValue(static_cast<int>(std::lround(1000.0 * fraction)));
-    const QString left = timeLeft(seconds_left);
-    doing_->setText(left.isEmpty() ? step : tr("%1 · %2 left").arg(step, left));
+    const QString left = timeLeft(seconds_left), words = reportWords(step.toStdString());
+    doing_->setText(left.isEmpty() ? words : tr("%1 · %2 left").arg(words, left));
     doing_->setToolTip(doing_->text());
 }
 
@@ -202,8 +234,9 @@ void StepsPanel::showState() {
     const auto* figure =
         products && !products->report.figures.empty() ? &products->report.figures.front() : nullptr;
     figure_->setText(figure != nullptr ? text(figure->value) : tr("not checked yet"));
-    figure_detail_->setText(figure != nullptr ? reportWords(figure->label) + ". " + text(figure->detail)
-                                              : tr("Process the survey to see its errors at the marks."));
+    figure_detail_->setText(figure != nullptr
+                                ? reportWords(figure->label) + ". " + reportWords(figure->detail)
+                                : tr("Process the survey to see its errors at the marks."));
     const bool marks = survey && !survey->marks.empty();
     tune_->setEnabled(!busy && marks);
     export_->setEnabled(!busy && products);

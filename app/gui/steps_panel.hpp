@@ -9,6 +9,7 @@ class QComboBox;
 class QLabel;
 class QProgressBar;
 class QPushButton;
+class QSpinBox;
 
 namespace terrawalk::gui {
 
@@ -32,6 +33,7 @@ class StepsPanel : public QWidget {
   private:
     void fillCards();
     void buildCheck(StepCard& card);
+    void buildSearch(StepCard& card);
     QPushButton* addButton(StepCard& card, const QString& name, const QString& text, const QString& tip);
     QWidget* buildFooter();
     void showState();
@@ -40,6 +42,8 @@ class StepsPanel : public QWidget {
     SurveySession& session_;
     std::map<StepKind, StepCard*> cards_;
     QPushButton* tune_ = nullptr;
+    QComboBox* optimiser_ = nullptr;
+    QSpinBox* repeats_ = nullptr;
     QPushButton* export_ = nullptr;
     QPushButton* command_ = nullptr;
     QPushButton* accuracy_ = nullptr;

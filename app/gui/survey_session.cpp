@@ -100,6 +100,8 @@ void SurveySession::finishOpening(const fs::path& path, Survey survey, SurveyMap
     survey_ = std::make_shared<const Survey>(std::move(survey));
     logged_map_ = std::make_shared<const SurveyMap>(std::move(map));
     history_.clear();
+    view_state_.setChange(nullptr);
+    tuning_ = std::make_shared<const TuningData>();
     undo_.clear();
     selection_.clear();
     settings_ = RunSettings();
@@ -107,6 +109,7 @@ void SurveySession::finishOpening(const fs::path& path, Survey survey, SurveyMap
     Q_EMIT surveyChanged();
     Q_EMIT productsChanged();
     Q_EMIT settingsChanged();
+    Q_EMIT tuningChanged();
     Q_EMIT told(MessageKind::Done, tr("Opened %1.").arg(text(survey_->name)));
     for (const std::string& note : survey_->notes) Q_EMIT told(MessageKind::Info, text(note));
     recover();
@@ -140,9 +143,10 @@ void SurveySession::finishRun(FinishedRun run) {
     if (history_.size() == kKeptRuns) history_.erase(history_.begin());
     history_.push_back(std::move(run));
     shown_ = history_.size() - 1;
+    view_state_.setChange(nullptr);
     Q_EMIT productsChanged();
     const SurveyReport& report = products()->report;
-    for (const std::string& line : report.warnings) Q_EMIT told(MessageKind::Warning, text(line));
+    for (const std::string& line : report.warnings) Q_EMIT told(MessageKind::Warning, reportWords(line));
     const QString figure = report.figures.empty() ? QString()
                                                   : tr(" %1: %2.")
                                                         .arg(reportWords(report.figures.front().label),
@@ -150,21 +154,104 @@ void SurveySession::finishRun(FinishedRun run) {
     Q_EMIT told(MessageKind::Done, tr("Processed.") + figure + (change.isEmpty() ? QString() : " " + change));
 }
 
-void SurveySession::tune() {
+void SurveySession::tune(OptimiserKind optimiser, std::size_t repeats) {
     if (!survey_) return;
-    job_.start([this, survey = survey_, config = settings_.config()](Progress& progress,
-                                                                     const std::stop_token& stop) {
+    job_.start([this, survey = survey_, config = settings_.config(), optimiser, repeats](
+                   Progress& progress, const std::stop_token& stop) {
         auto edited = withEdits(*survey, config.edits);
-        TuneOptions options;
-        options.seed = config.seed;
-        Result<PipelineConfig> tuned = edited ? tunedWhereBetter(*edited, config, options, progress, stop)
-                                              : tl::unexpected(edited.error());
-        return [this, tuned = std::move(tuned)] {
-            if (!tuned) return fail(tuned.error());
-            changeSettings(RunSettings(*tuned), tr("tune"));
-            if (tuned->tuning) Q_EMIT told(MessageKind::Done, text(tuned->tuning->decision));
+        std::vector<TuneTrace> traces;
+        Result<TunedConfig> best = tl::unexpected(edited ? Error() : edited.error());
+        for (std::size_t r = 0; edited && r < repeats; ++r) {
+            const auto n = static_cast<double>(repeats), done = static_cast<double>(r);
+            PartialProgress part(progress, done / n, (done + 1.0) / n);
+            TuneOptions options;
+            options.optimiser = optimiser;
+            options.seed = config.seed + r;
+            auto tuned = tunedWithTrace(*edited, config, options, part, stop);
+            if (tuned) traces.push_back(tuned->trace);
+            if (!tuned || !best || tuned->loss < best->loss) best = std::move(tuned);
+            if (!best) break;
+        }
+        return [this, best = std::move(best), traces = std::move(traces)] {
+            addTraces(traces);
+            if (!best) return fail(best.error());
+            changeSettings(RunSettings(best->config), tr("tune"));
+            if (best->config.tuning)
+                Q_EMIT told(MessageKind::Done, reportWords(best->config.tuning->decision));
         };
     });
+}
+
+void SurveySession::addTraces(const std::vector<TuneTrace>& traces) {
+    if (traces.empty()) return;
+    TuningData all = *tuning_;
+    all.traces.insert(all.traces.end(), traces.begin(), traces.end());
+    tuning_ = std::make_shared<const TuningData>(std::move(all));
+    Q_EMIT tuningChanged();
+}
+
+const TuneTrace* SurveySession::traceInUse() const {
+    const auto record = settings_.config().tuning;
+    if (!record) return nullptr;
+    for (auto trace = tuning_->traces.rbegin(); trace != tuning_->traces.rend(); ++trace) {
+        if (trace->optimiser == record->optimiser && trace->seed == record->seed &&
+            trace->loss == record->loss)
+            return &*trace;
+    }
+    return nullptr;
+}
+
+void SurveySession::openSearches(const fs::path& file) {
+    if (QFileInfo(text(file.string())).suffix().compare("csv", Qt::CaseInsensitive) == 0) {
+        auto table = readOptimiserTable(file);
+        if (!table) return fail(table.error());
+        TuningData all = *tuning_;
+        all.table = std::move(*table);
+        tuning_ = std::make_shared<const TuningData>(std::move(all));
+        return Q_EMIT tuningChanged();
+    }
+    const auto trace = readTuneTrace(file);
+    if (!trace) return fail(trace.error());
+    addTraces({*trace});
+}
+
+void SurveySession::compareWith(std::size_t run) {
+    if (run >= history_.size() || run == shown_) return;
+    const FinishedRun& earlier = history_[run];
+    const std::string name = tr("the run of %1").arg(earlier.when.toString("HH:mm:ss")).toStdString();
+    job_.start([this, later = products(), earlier = earlier.products, name](Progress& progress,
+                                                                            const std::stop_token& stop) {
+        progress.report(0.0, "comparing");
+        return [this, change = changeSince(*later, *earlier, name, stop)]() mutable {
+            takeChange(std::move(change));
+        };
+    });
+}
+
+void SurveySession::compareWith(const fs::path& dem) {
+    if (history_.empty()) return;
+    job_.start([this, later = products(), dem](Progress& progress, const std::stop_token& stop) {
+        progress.report(0.0, "comparing");
+        return [this, change = changeSince(*later, dem, stop)]() mutable {
+            takeChange(std::move(change));
+        };
+    });
+}
+
+void SurveySession::takeChange(Result<HeightChange> change) {
+    if (!change) return fail(change.error());
+    const HeightChange& c = *change;
+    const auto cells = static_cast<double>(c.difference.all.cells);
+    QString words = tr("Less %1: median %2, RMS %3 m.")
+                        .arg(text(c.earlier), signedLength(c.median_m), QString::number(c.rms_m, 'f', 3));
+    if (c.has_sigma) {
+        const auto sure = static_cast<double>(c.difference.raised + c.difference.lowered);
+        words +=
+            " " +
+            tr("%1 % of the cells changed beyond 1.96 σ.").arg(QString::number(100.0 * sure / cells, 'f', 1));
+    }
+    view_state_.setChange(std::make_shared<const HeightChange>(std::move(*change)));
+    Q_EMIT told(MessageKind::Done, words);
 }
 
 void SurveySession::exportTo(const fs::path& folder, const ExportRequest& further) {
@@ -226,6 +313,9 @@ void SurveySession::loadSettings(const fs::path& file) {
     PipelineConfig config;
     if (const auto read = applyConfigFile(config, file); !read) return fail(read.error());
     changeSettings(RunSettings(config), tr("load settings"));
+    if (config.tuning) {
+        if (const auto trace = readTuneTrace(file)) addTraces({*trace});
+    }
     Q_EMIT told(MessageKind::Done, tr("Settings read from %1.").arg(text(file.string())));
 }
 
@@ -235,14 +325,25 @@ fs::path SurveySession::settingsFile() const {
     return file.replace_extension(".settings.json");
 }
 
-bool SurveySession::save() {
-    if (!survey_) return false;
+bool SurveySession::writeSettings(const fs::path& file) {
     QString problem;
-    if (!writeWhole(settingsFile(), toJson(settings_.config()), problem)) {
-        Q_EMIT told(MessageKind::Error, tr("%1: cannot be written (%2); check that you may write there")
-                                            .arg(text(settingsFile().string()), problem));
-        return false;
-    }
+    std::string content = toJson(settings_.config());
+    if (const TuneTrace* trace = traceInUse()) content = withTrace(content, *trace);
+    if (writeWhole(file, content, problem)) return true;
+    Q_EMIT told(
+        MessageKind::Error,
+        tr("%1: cannot be written (%2); check that you may write there").arg(text(file.string()), problem));
+    return false;
+}
+
+bool SurveySession::saveSettingsAs(const fs::path& file) {
+    if (!survey_ || !writeSettings(file)) return false;
+    Q_EMIT told(MessageKind::Done, tr("Saved to %1.").arg(text(file.string())));
+    return true;
+}
+
+bool SurveySession::save() {
+    if (!survey_ || !writeSettings(settingsFile())) return false;
     saved_ = settings_;
     autosave_.stop();
     QFile::remove(text(autosaveFile().string()));
@@ -264,6 +365,8 @@ void SurveySession::readSaved() {
     }
     saved_ = RunSettings(config);
     settings_ = saved_;
+    if (!config.tuning) return;
+    if (const auto trace = readTuneTrace(settingsFile())) addTraces({*trace});
 }
 
 fs::path SurveySession::autosaveFile() const {
@@ -322,6 +425,7 @@ bool SurveySession::outdated() const {
 void SurveySession::goBackTo(std::size_t run) {
     if (run >= history_.size()) return;
     shown_ = run;
+    view_state_.setChange(nullptr);
     changeSettings(history_[run].settings, tr("go back to an earlier run"));
     Q_EMIT productsChanged();
 }

@@ -13,9 +13,11 @@
 #include "app/gui/background_job.hpp"
 #include "app/gui/run_settings.hpp"
 #include "app/gui/selection.hpp"
+#include "app/gui/view_state.hpp"
 #include "app/pipeline/export_job.hpp"
 #include "app/pipeline/process.hpp"
 #include "app/pipeline/survey_map.hpp"
+#include "app/pipeline/tune_trace.hpp"
 #include "survey/result.hpp"
 #include "survey/survey.hpp"
 
@@ -45,7 +47,12 @@ class SurveySession : public QObject {
     void open(const std::filesystem::path& project_file_or_folder, bool then_process = false);
     void process();
     /// Tunes the method on the survey's marks and takes the values over where they hold out better; undoable.
-    void tune();
+    /// @param repeats  searches with seeds one after the other, of which the best is taken
+    void tune(OptimiserKind optimiser = OptimiserKind::Isma, std::size_t repeats = 1);
+    /// The searches of this survey, and of files that were opened.
+    [[nodiscard]] std::shared_ptr<const TuningData> tuning() const { return tuning_; }
+    /// Adds the search of a tuned file, or shows the table of an experiment.
+    void openSearches(const std::filesystem::path& file);
     /// Writes the results that are shown, just as the command line would.
     /// @param further  formats for a folder beside it, if any
     void exportTo(const std::filesystem::path& folder, const ExportRequest& further = {});
@@ -61,6 +68,8 @@ class SurveySession : public QObject {
     void loadSettings(const std::filesystem::path& file);
     /// Writes the settings beside the survey, for this program and for `terrawalk process --config`.
     bool save();
+    /// The same into any other file; what counts as saved stays.
+    bool saveSettingsAs(const std::filesystem::path& file);
     [[nodiscard]] bool modified() const { return survey_ && !(settings_ == saved_); }
     [[nodiscard]] std::filesystem::path settingsFile() const;
 
@@ -78,6 +87,13 @@ class SurveySession : public QObject {
     [[nodiscard]] BackgroundJob& job() { return job_; }
     [[nodiscard]] QUndoStack& undoStack() { return undo_; }
     [[nodiscard]] Selection& selection() { return selection_; }
+    [[nodiscard]] ViewState& viewState() { return view_state_; }
+
+    /// Takes the shown results and an earlier run, or any DEM, apart: their difference becomes a layer. What
+    /// was compared goes when other results are shown.
+    void compareWith(std::size_t run);
+    void compareWith(const std::filesystem::path& dem);
+    void compareWithNothing() { view_state_.setChange(nullptr); }
 
     /// The last runs, the oldest first; the shown one is among them.
     [[nodiscard]] const std::vector<FinishedRun>& history() const { return history_; }
@@ -97,12 +113,17 @@ class SurveySession : public QObject {
     /// Once after any number of settings.
     void settingsChanged();
     void savedChanged();
+    void tuningChanged();
     void exported(const QString& folder);
     void told(terrawalk::gui::MessageKind kind, const QString& text);
 
   private:
     friend class SettingsCommand;
     void put(const RunSettings& settings);
+    bool writeSettings(const std::filesystem::path& file);
+    void addTraces(const std::vector<TuneTrace>& traces);
+    [[nodiscard]] const TuneTrace* traceInUse() const;
+    void takeChange(Result<HeightChange> change);
     void fail(const Error& error);
     void finishOpening(const std::filesystem::path& path, Survey survey, SurveyMap map);
     void finishRun(FinishedRun run);
@@ -115,12 +136,14 @@ class SurveySession : public QObject {
     BackgroundJob job_;
     QUndoStack undo_;
     Selection selection_;
+    ViewState view_state_;
     QTimer autosave_;
     std::filesystem::path path_;
     RunSettings settings_;
     RunSettings saved_;
     std::shared_ptr<const Survey> survey_;
     std::shared_ptr<const SurveyMap> logged_map_;
+    std::shared_ptr<const TuningData> tuning_ = std::make_shared<const TuningData>();
     std::vector<FinishedRun> history_;
     std::size_t shown_ = 0;
 };

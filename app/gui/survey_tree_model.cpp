@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/gui/accuracy_words.hpp"
+#include "app/gui/map_scene.hpp"
 #include "app/gui/theme.hpp"
 
 namespace terrawalk::gui {
@@ -90,14 +91,14 @@ SurveyTreeModel::SurveyTreeModel(QObject* parent) : QStandardItemModel(parent) {
 }
 
 void SurveyTreeModel::show(const Survey& survey, const SurveyMap& map, const Products* products,
-                           const SurveyEdits& edits, const MapScene& scene) {
+                           const SurveyEdits& edits, const ViewChoice& shown) {
     clear();
     setHorizontalHeaderLabels({tr("Survey"), ""});
     setColumnCount(2);
-    addRuns(survey, products, edits, scene);
-    addMarks(survey, map, edits, scene);
+    addRuns(survey, products, edits, shown);
+    addMarks(survey, map, edits, shown);
     addEdits(edits);
-    if (products != nullptr) addResults(*products, scene);
+    if (products != nullptr) addResults(*products, shown);
 }
 
 QStandardItem* SurveyTreeModel::addGroup(const QString& name, qsizetype count) {
@@ -110,7 +111,7 @@ QStandardItem* SurveyTreeModel::addGroup(const QString& name, qsizetype count) {
 }
 
 void SurveyTreeModel::addRuns(const Survey& survey, const Products* products, const SurveyEdits& edits,
-                              const MapScene& scene) {
+                              const ViewChoice& shown) {
     QStandardItem* group = addGroup(tr("Runs"), static_cast<qsizetype>(survey.runs.size()));
     for (std::size_t i = 0; i < survey.runs.size(); ++i) {
         const Run& run = survey.runs[i];
@@ -123,7 +124,7 @@ void SurveyTreeModel::addRuns(const Survey& survey, const Products* products, co
             group->appendRow({made, state(tr("left out"))});
             continue;
         }
-        check(*made, !scene.hidden_runs.contains(text(run.id)));
+        check(*made, !shown.hidden_runs.contains(text(run.id)));
         QString words =
             run.log.size() > 0 ? duration(run.log.time_s.back() - run.log.time_s.front()) : tr("empty");
         QString help =
@@ -141,7 +142,7 @@ void SurveyTreeModel::addRuns(const Survey& survey, const Products* products, co
 }
 
 void SurveyTreeModel::addMarks(const Survey& survey, const SurveyMap& map, const SurveyEdits& edits,
-                               const MapScene& scene) {
+                               const ViewChoice& shown) {
     QStandardItem* group = addGroup(tr("Marks"), static_cast<qsizetype>(survey.marks.size()));
     for (const ControlMark& mark : survey.marks) {
         const bool control = mark.role == MarkRole::Control;
@@ -152,7 +153,7 @@ void SurveyTreeModel::addMarks(const Survey& survey, const SurveyMap& map, const
             group->appendRow({made, state(tr("left out"))});
             continue;
         }
-        check(*made, !scene.hidden_marks.contains(text(mark.name)));
+        check(*made, !shown.hidden_marks.contains(text(mark.name)));
         made->setToolTip(control ? tr("Control mark: may hold the track")
                                  : tr("Check mark: only ever measures errors"));
         QString words = control ? tr("control") : tr("check");
@@ -189,7 +190,7 @@ void SurveyTreeModel::addEdits(const SurveyEdits& edits) {
     }
 }
 
-void SurveyTreeModel::addResults(const Products& products, const MapScene& scene) {
+void SurveyTreeModel::addResults(const Products& products, const ViewChoice& shown) {
     const SurveyReport& report = products.report;
     QStandardItem* group = addGroup(tr("Results"), -1);
     const auto add = [&](QStandardItem* made, const QString& words) {
@@ -207,7 +208,7 @@ void SurveyTreeModel::addResults(const Products& products, const MapScene& scene
     add(entry(tr("Mesh"), ResultItem, "mesh"), tr("%1 triangles").arg(report.surface.triangles));
     if (products.terrace_edges.empty()) return;
     QStandardItem* edges = entry(tr("Terrace edges"), EdgesItem, "edges");
-    check(*edges, scene.show_edges);
+    check(*edges, shown.edges);
     add(edges, QString::number(products.terrace_edges.size()));
 }
 

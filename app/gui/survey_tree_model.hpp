@@ -2,7 +2,7 @@
 
 #include <QStandardItemModel>
 
-#include "app/gui/map_scene.hpp"
+#include "app/gui/view_state.hpp"
 #include "app/pipeline/process.hpp"
 #include "app/pipeline/survey_map.hpp"
 #include "survey/survey.hpp"
@@ -20,20 +20,20 @@ class SurveyTreeModel : public QStandardItemModel {
     explicit SurveyTreeModel(QObject* parent = nullptr);
     /// @param survey    as in its files
     /// @param products  null before the survey is processed
-    /// @param scene     tells what is hidden on the map
+    /// @param shown     tells what is hidden on the map
     void show(const Survey& survey, const SurveyMap& map, const Products* products, const SurveyEdits& edits,
-              const MapScene& scene);
+              const ViewChoice& shown);
 
   Q_SIGNALS:
     void visibilityChanged(int kind, const QString& id, bool visible);
 
   private:
     void addRuns(const Survey& survey, const Products* products, const SurveyEdits& edits,
-                 const MapScene& scene);
+                 const ViewChoice& shown);
     void addMarks(const Survey& survey, const SurveyMap& map, const SurveyEdits& edits,
-                  const MapScene& scene);
+                  const ViewChoice& shown);
     void addEdits(const SurveyEdits& edits);
-    void addResults(const Products& products, const MapScene& scene);
+    void addResults(const Products& products, const ViewChoice& shown);
     QStandardItem* addGroup(const QString& name, qsizetype count);
 };
 

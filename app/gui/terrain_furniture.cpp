@@ -175,7 +175,7 @@ void drawPins(QPainter& painter, const TerrainFrame& frame, const MapScene& map,
     std::vector<QRectF> taken;
     for (const PlacedMark& placed : map.survey->marks) {
         const QString name = QString::fromStdString(placed.mark.name);
-        if (map.hidden_marks.contains(name)) continue;
+        if (map.shown.hidden_marks.contains(name)) continue;
         const auto foot = onScreen(frame, placed.map_m);
         if (!foot) continue;
         const bool highlighted = map.highlighted == name;

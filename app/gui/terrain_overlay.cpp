@@ -49,27 +49,79 @@ void layTrack(const TerrainScene& scene, const MapTrack& track, double from_s, d
     finish();
 }
 
-void addTracks(const TerrainScene& scene, const MapScene& map, const OverlayChoice& choice,
-               std::vector<SceneLine>& lines) {
+void addTracks(const TerrainScene& scene, const MapScene& map, std::vector<SceneLine>& lines) {
     for (std::size_t i = 0; i < map.survey->tracks.size(); ++i) {
         const MapTrack& track = map.survey->tracks[i];
         const QString id = QString::fromStdString(track.run_id);
-        if (map.hidden_runs.contains(id)) continue;
+        if (map.shown.hidden_runs.contains(id)) continue;
         const TrackInk ink = trackInk(map, i);
         SceneLine style;
         style.width_px = map.highlighted == id ? 3.5F : 1.8F;
         style.edge = qRgba(255, 255, 255, 255);
-        if (choice.tracks) {
+        if (map.shown.tracks) {
             layTrack(scene, track, -HUGE_VAL, HUGE_VAL, ink, style, lines);
         }
-        if (choice.stretch && choice.stretch->run == id) {
+        for (const ExcludedStretch& out : map.shown.edits->stretches) {
+            if (out.run != track.run_id) continue;
+            SceneLine left_out;
+            left_out.width_px = 3.0F;
+            left_out.edge = qRgba(255, 255, 255, 255);
+            layTrack(
+                scene, track, out.from_s, out.to_s, [](std::size_t) { return kExcludedInk.rgb(); }, left_out,
+                lines);
+        }
+        if (map.stretch && map.stretch->run == id) {
             const QRgb bright = selectedColour().rgb();
             style.width_px = 5.0F;
             style.edge = qRgba(30, 30, 30, 255);
             layTrack(
-                scene, track, choice.stretch->from_s, choice.stretch->to_s,
-                [&](std::size_t) { return bright; }, style, lines);
+                scene, track, map.stretch->from_s, map.stretch->to_s, [&](std::size_t) { return bright; },
+                style, lines);
         }
+    }
+}
+
+/// A polyline of the map, laid on the surface; where there is none it breaks.
+void layLine(const TerrainScene& scene, const std::vector<Eigen::Vector3d>& vertices_m, bool closed,
+             const SceneLine& style, QRgb colour, std::vector<SceneLine>& lines) {
+    const double step_m = scene.products().dem.geometry.cell_m;
+    SceneLine line = style;
+    const auto add = [&](const Eigen::Vector2d& at) {
+        const auto height_m = scene.heightAt(at.x(), at.y());
+        if (height_m) {
+            line.at_m.push_back(inScene(scene, {at.x(), at.y(), *height_m}));
+            line.colours.push_back(colour);
+            return;
+        }
+        if (line.at_m.size() > 1) lines.push_back(std::move(line));
+        line = style;
+    };
+    const std::size_t n = vertices_m.size(), ends = closed && n > 2 ? n : n - 1;
+    for (std::size_t i = 0; n > 1 && i < ends; ++i) {
+        const Eigen::Vector2d from = vertices_m[i].head<2>(), to = vertices_m[(i + 1) % n].head<2>();
+        const auto steps = std::clamp(std::ceil((to - from).norm() / step_m), 1.0, 2000.0);
+        for (double k = i == 0 ? 0.0 : 1.0; k <= steps; ++k) add(from + (to - from) * (k / steps));
+    }
+    if (line.at_m.size() > 1) lines.push_back(std::move(line));
+}
+
+void addEdges(const TerrainScene& scene, std::vector<SceneLine>& lines) {
+    for (const TerraceEdge& edge : scene.products().terrace_edges) {
+        for (const auto* vertices : {&edge.toe_m, &edge.top_m}) {
+            SceneLine style;
+            style.width_px = vertices == &edge.top_m ? 1.8F : 1.0F;
+            layLine(scene, *vertices, false, style, kEdgeInk.rgb(), lines);
+        }
+    }
+}
+
+void addDrawnLines(const TerrainScene& scene, const SurveyEdits& edits, std::vector<SceneLine>& lines) {
+    for (const Breakline& drawn : edits.lines) {
+        const bool ring = drawn.kind == BreaklineKind::Boundary || drawn.kind == BreaklineKind::Hole;
+        SceneLine style;
+        style.width_px = 2.4F;
+        style.edge = qRgba(255, 255, 255, 255);
+        layLine(scene, drawn.vertices_m, ring, style, lineColour(drawn.kind).rgb(), lines);
     }
 }
 
@@ -107,18 +159,6 @@ QColor selectedColour() {
     return {255, 214, 10};
 }
 
-QRgb pointColour(GroundPointState state) {
-    switch (state) {
-        case GroundPointState::Used:
-            return qRgb(32, 36, 40);
-        case GroundPointState::Thinned:
-        case GroundPointState::RunLeftOut:
-            return qRgb(128, 134, 140);
-        default:
-            return qRgb(213, 94, 0);
-    }
-}
-
 std::vector<double> wholeSteps(double from, double to, double step) {
     std::vector<double> list;
     for (double at = std::ceil(from / step) * step; at <= to; at += step) list.push_back(at);
@@ -138,18 +178,20 @@ FloorGrid floorGrid(const TerrainScene& scene) {
 }
 
 SceneOverlay sceneOverlay(const TerrainScene& scene, const MapScene& map,
-                          const std::vector<Eigen::Vector3d>& points_map_m, const OverlayChoice& choice,
-                          const QPalette& palette) {
+                          const std::vector<Eigen::Vector3d>& points_map_m, const QPalette& palette) {
     SceneOverlay overlay;
     addFloor(scene, palette, overlay.lines);
-    if (map.survey) addTracks(scene, map, choice, overlay.lines);
-    if (!choice.points) return overlay;
+    if (map.shown.edges) addEdges(scene, overlay.lines);
+    if (map.survey) addTracks(scene, map, overlay.lines);
+    addDrawnLines(scene, *map.shown.edits, overlay.lines);
+    if (!map.shown.points) return overlay;
     const auto& points = scene.products().ground_points;
     const std::size_t step = 1 + points_map_m.size() / kMostDots;
     for (std::size_t i = 0; i < points_map_m.size(); i += step) {
         if (!points_map_m[i].allFinite()) continue;
         if (map.survey && points[i].run < map.survey->tracks.size() &&
-            map.hidden_runs.contains(QString::fromStdString(map.survey->tracks[points[i].run].run_id))) {
+            map.shown.hidden_runs.contains(
+                QString::fromStdString(map.survey->tracks[points[i].run].run_id))) {
             continue;
         }
         overlay.dots.push_back({inScene(scene, points_map_m[i]), pointColour(points[i].state)});

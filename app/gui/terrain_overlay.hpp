@@ -11,14 +11,6 @@ namespace terrawalk::gui {
 
 /// Of the stretch that is selected, on any ground.
 [[nodiscard]] QColor selectedColour();
-/// Of a ground point, by whether it carries the surface, stands back for another, or was refused.
-[[nodiscard]] QRgb pointColour(GroundPointState state);
-
-struct OverlayChoice {
-    bool tracks = true;
-    bool points = false;
-    std::optional<TrackStretch> stretch;
-};
 
 /// The floor, with lines at round coordinates.
 struct FloorGrid {
@@ -29,10 +21,11 @@ struct FloorGrid {
 [[nodiscard]] std::vector<double> wholeSteps(double from, double to, double step);
 [[nodiscard]] FloorGrid floorGrid(const TerrainScene& scene);
 
-/// Tracks laid on the surface, ground points where they were measured, and the grid of the floor. Pure.
+/// What the map chose to show: tracks, excluded stretches, edges of terraces and drawn lines laid on the
+/// surface, ground points where they were measured; and the grid of the floor. Pure.
 /// @param points_map_m  one for each ground point of the products
 [[nodiscard]] SceneOverlay sceneOverlay(const TerrainScene& scene, const MapScene& map,
                                         const std::vector<Eigen::Vector3d>& points_map_m,
-                                        const OverlayChoice& choice, const QPalette& palette);
+                                        const QPalette& palette);
 
 }  // namespace terrawalk::gui

@@ -3,7 +3,6 @@
 #include <QDoubleSpinBox>
 #include <QKeyEvent>
 #include <QLabel>
-#include <QMenu>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QSlider>
@@ -19,6 +18,7 @@
 #include "app/gui/map_view.hpp"
 #include "app/gui/point_card.hpp"
 #include "app/gui/round_numbers.hpp"
+#include "app/gui/show_menu.hpp"
 #include "app/gui/terrain_furniture.hpp"
 #include "app/gui/terrain_overlay.hpp"
 #include "app/gui/theme.hpp"
@@ -56,6 +56,7 @@ QAction* sideAction(QToolBar& bar, TerrainView& view, ViewFrom side, const QStri
                     const char* name) {
     QAction* action = bar.addAction(text);
     action->setToolTip(tip);
+    action->setWhatsThis(tip);
     action->setObjectName(name);
     QObject::connect(action, &QAction::triggered, &view, [&view, side] { view.viewFrom(side); });
     return action;
@@ -81,8 +82,9 @@ class FurnitureWidget final : public QWidget {
 
 }  // namespace
 
-TerrainView::TerrainView(Selection& selection, TerrainRenderer renderer, QWidget* parent)
-    : QWidget(parent), selection_(selection), renderer_(renderer) {
+TerrainView::TerrainView(ViewState& state, Selection& selection, TerrainRenderer renderer, QWidget* parent)
+    : QWidget(parent), state_(state), selection_(selection), renderer_(renderer) {
+    map_.shown = state_.now();
     setObjectName("terrainView");
     setAccessibleName(tr("3-D view"));
     setFocusPolicy(Qt::StrongFocus);
@@ -106,8 +108,10 @@ TerrainView::TerrainView(Selection& selection, TerrainRenderer renderer, QWidget
     });
     connect(&selection_, &Selection::changed, this, [this] {
         map_.highlighted = selection_.item();
+        map_.stretch = selection_.stretch();
         renewOverlay();
     });
+    connect(&state_, &ViewState::changed, this, &TerrainView::followState);
     themeChanged();
 }
 
@@ -158,25 +162,18 @@ void TerrainView::makeToolBar() {
     auto* shown = new QToolButton;
     shown->setObjectName("shown");
     shown->setText(tr("Show"));
-    shown->setToolTip(tr("What is drawn on the surface"));
+    shown->setToolTip(tr("What is drawn on the surface, here and on the map"));
     shown->setPopupMode(QToolButton::InstantPopup);
-    auto* menu = new QMenu(shown);
-    const auto toggle = [&](const QString& text, bool now, const char* name, auto setter) {
-        QAction* action = menu->addAction(text);
-        action->setObjectName(name);
-        action->setCheckable(true);
-        action->setChecked(now);
-        connect(action, &QAction::toggled, this, setter);
-    };
-    toggle(tr("Tracks, laid on the surface"), tracks_, "showTracks", &TerrainView::setTracksShown);
-    toggle(tr("Ground points"), points_, "showPoints", &TerrainView::setPointsShown);
-    toggle(tr("Marks"), marks_, "showMarks", &TerrainView::setMarksShown);
-    toggle(tr("Contours"), contours_, "showContours", &TerrainView::setContoursShown);
-    shown->setMenu(menu);
+    shown->setMenu(new ShowMenu(state_, shown));
     tools_->addWidget(shown);
     QAction* reset = tools_->addAction(icon("fit"), tr("Reset"));
     reset->setObjectName("resetView");
     reset->setToolTip(tr("The first view again (Home)"));
+    reset->setWhatsThis(reset->toolTip());
+    for (QWidget* widget :
+         {static_cast<QWidget*>(exaggeration_), static_cast<QWidget*>(light), static_cast<QWidget*>(shown)}) {
+        widget->setWhatsThis(widget->toolTip());
+    }
     connect(reset, &QAction::triggered, this, &TerrainView::resetView);
 }
 
@@ -208,9 +205,10 @@ void TerrainView::build() {
     // The points of this surface, whatever is shown next.
     const std::shared_ptr<const std::vector<Eigen::Vector3d>> points(map_.survey,
                                                                      &map_.survey->ground_points_m);
-    watcher_.setFuture(QtConcurrent::run([products = map_.products, layer = layer_, points] {
+    watcher_.setFuture(QtConcurrent::run([products = map_.products, shown = map_.shown, points] {
         Built built;
-        built.picture = std::make_shared<const RasterPicture>(rasterPicture(*products, layer));
+        built.picture =
+            std::make_shared<const RasterPicture>(rasterPicture(*products, shown.layer, shown.change.get()));
         built.scene = std::make_shared<const TerrainScene>(products, *built.picture);
         built.points_map_m = points;
         return built;
@@ -305,71 +303,23 @@ void TerrainView::renew(bool moving) {
 
 void TerrainView::renewOverlay() {
     if (!frame_.scene) return;
-    OverlayChoice choice;
-    choice.tracks = tracks_;
-    choice.points = points_;
-    choice.stretch = selection_.stretch();
-    frame_.overlay = std::make_shared<const SceneOverlay>(
-        sceneOverlay(*frame_.scene, map_, points_map_m_ ? *points_map_m_ : std::vector<Eigen::Vector3d>(),
-                     choice, palette()));
+    frame_.overlay = std::make_shared<const SceneOverlay>(sceneOverlay(
+        *frame_.scene, map_, points_map_m_ ? *points_map_m_ : std::vector<Eigen::Vector3d>(), palette()));
     renew(frame_.moving);
 }
 
 void TerrainView::chooseContours() {
     frame_.contour_interval_m = 0.0;
-    if (!contours_ || !frame_.scene) return;
+    if (!map_.shown.contours || !frame_.scene) return;
     const double range_m = frame_.scene->highest_m() - frame_.scene->lowest_m();
     if (range_m > 0.0) frame_.contour_interval_m = roundBelow(1.5 * range_m / kContoursInRange);
 }
 
-void TerrainView::setLayer(RasterLayer layer) {
-    if (layer == layer_) return;
-    layer_ = layer;
-    build();
-}
-
-void TerrainView::setColouring(TrackColouring colouring) {
-    map_.colouring = colouring;
+void TerrainView::followState() {
+    const ViewChoice before = std::exchange(map_.shown, state_.now());
+    if (before.layer != map_.shown.layer || before.change != map_.shown.change) build();
+    if (before.contours != map_.shown.contours) chooseContours();
     renewOverlay();
-}
-
-void TerrainView::setRunVisible(const QString& run, bool visible) {
-    if (visible) {
-        map_.hidden_runs.remove(run);
-    } else {
-        map_.hidden_runs.insert(run);
-    }
-    renewOverlay();
-}
-
-void TerrainView::setMarkVisible(const QString& mark, bool visible) {
-    if (visible) {
-        map_.hidden_marks.remove(mark);
-    } else {
-        map_.hidden_marks.insert(mark);
-    }
-    renew(frame_.moving);
-}
-
-void TerrainView::setTracksShown(bool shown) {
-    tracks_ = shown;
-    renewOverlay();
-}
-
-void TerrainView::setPointsShown(bool shown) {
-    points_ = shown;
-    renewOverlay();
-}
-
-void TerrainView::setMarksShown(bool shown) {
-    marks_ = shown;
-    renew(frame_.moving);
-}
-
-void TerrainView::setContoursShown(bool shown) {
-    contours_ = shown;
-    chooseContours();
-    renew(frame_.moving);
 }
 
 void TerrainView::setExaggeration(double factor) {
@@ -436,11 +386,11 @@ void TerrainView::pickAt(QPointF px) {
     if (!frame_.scene) return;
     for (const PlacedMark& placed : map_.survey->marks) {
         const auto foot = frame_.camera.project(frame_.scene->toScene(placed.map_m, frame_.exaggeration));
-        if (!marks_ || !foot) continue;
+        if (!map_.shown.marks || !foot) continue;
         // The head of its pin stands above it.
         if (std::hypot(foot->x() - px.x(), foot->y() - pinHeight(frame_) - px.y()) > kNearMark_px) continue;
         const QString name = QString::fromStdString(placed.mark.name);
-        if (!map_.hidden_marks.contains(name)) {
+        if (!map_.shown.hidden_marks.contains(name)) {
             selection_.selectItem(name);
             break;
         }
@@ -465,7 +415,7 @@ void TerrainView::hidePick() {
 void TerrainView::paintFurniture(QPainter& painter) {
     if (!frame_.scene) return;
     drawAxes(painter, frame_, palette());
-    if (marks_) drawPins(painter, frame_, map_, palette());
+    if (map_.shown.marks) drawPins(painter, frame_, map_, palette());
     if (picked_map_m_) drawPick(painter, frame_, *picked_map_m_);
     drawTerrainFurniture(painter, frame_, map_, palette());
 }

@@ -29,22 +29,15 @@ enum class TerrainRenderer { Automatic, OpenGl, Software };
 class TerrainView : public QWidget {
     Q_OBJECT
   public:
-    explicit TerrainView(Selection& selection, TerrainRenderer renderer = TerrainRenderer::Automatic,
-                         QWidget* parent = nullptr);
+    /// Both must outlive the view.
+    TerrainView(ViewState& state, Selection& selection, TerrainRenderer renderer = TerrainRenderer::Automatic,
+                QWidget* parent = nullptr);
     ~TerrainView() override;
 
     /// Shows a survey, and its surface where there are products; where the place is another, all comes in
     /// view.
     void show(std::shared_ptr<const Survey> survey, std::shared_ptr<const SurveyMap> map,
               std::shared_ptr<const Products> products);
-    void setLayer(RasterLayer layer);
-    void setColouring(TrackColouring colouring);
-    void setRunVisible(const QString& run, bool visible);
-    void setMarkVisible(const QString& mark, bool visible);
-    void setTracksShown(bool shown);
-    void setPointsShown(bool shown);
-    void setMarksShown(bool shown);
-    void setContoursShown(bool shown);
     /// Heights times this much; between 0.5 and 20.
     void setExaggeration(double factor);
     /// Where the light comes from.
@@ -61,7 +54,6 @@ class TerrainView : public QWidget {
 
     [[nodiscard]] const OrbitCamera& camera() const { return frame_.camera; }
     [[nodiscard]] const TerrainFrame& frame() const { return frame_; }
-    [[nodiscard]] RasterLayer layer() const { return layer_; }
     [[nodiscard]] std::optional<Eigen::Vector3d> picked_map_m() const { return picked_map_m_; }
     /// Whether the surface is still being made ready.
     [[nodiscard]] bool building() const { return building_; }
@@ -106,6 +98,7 @@ class TerrainView : public QWidget {
     void fit();
     void renewOverlay();
     void chooseContours();
+    void followState();
     void renew(bool moving);
     void paintFurniture(QPainter& painter);
     void hidePick();
@@ -113,11 +106,11 @@ class TerrainView : public QWidget {
     [[nodiscard]] QPointF inPicture(QPointF px) const;
     [[nodiscard]] QRect pictureRect() const;
 
+    ViewState& state_;
     Selection& selection_;
     TerrainRenderer renderer_;
     std::shared_ptr<const Survey> survey_;
     MapScene map_;
-    RasterLayer layer_ = RasterLayer::Height;
     std::shared_ptr<const std::vector<Eigen::Vector3d>> points_map_m_;
     QFutureWatcher<Built> watcher_;
     TerrainFrame frame_;
@@ -133,7 +126,6 @@ class TerrainView : public QWidget {
     bool dragging_ = false;
     bool building_ = false;
     bool fitted_ = false;  ///< until a person moves the view, it keeps showing all
-    bool tracks_ = true, points_ = false, marks_ = true, contours_ = true;
 };
 
 }  // namespace terrawalk::gui

@@ -19,18 +19,23 @@ struct Distance {
 
 /// Of the nearest points that pass, the nearest first.
 template <class Passes>
-std::vector<Distance> nearestPoints(const SurveyMap& map, const Eigen::Vector2d& at_m, std::size_t count,
-                                    const Passes& passes) {
+std::vector<Distance> nearestPoints(const std::vector<Eigen::Vector3d>& points_map_m,
+                                    const Eigen::Vector2d& at_m, std::size_t count, const Passes& passes) {
     std::vector<Distance> all;
-    for (std::size_t i = 0; i < map.ground_points_m.size(); ++i) {
-        if (!map.ground_points_m[i].allFinite() || !passes(i)) continue;
-        all.push_back({(map.ground_points_m[i].head<2>() - at_m).squaredNorm(), i});
+    for (std::size_t i = 0; i < points_map_m.size(); ++i) {
+        if (!points_map_m[i].allFinite() || !passes(i)) continue;
+        all.push_back({(points_map_m[i].head<2>() - at_m).squaredNorm(), i});
     }
     const std::size_t kept = std::min(count, all.size());
     std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(kept), all.end());
     all.resize(kept);
     return all;
 }
+
+struct Carries {
+    const Products& products;
+    bool operator()(std::size_t i) const { return products.ground_points[i].state == GroundPointState::Used; }
+};
 
 NearSample sampleOf(const Survey& survey, const GroundPoint& point, const Eigen::Vector3d& map_m,
                     double squared_m2) {
@@ -56,9 +61,7 @@ void addSigma(const Products& products, const SurveyMap& map, std::size_t cell, 
     const GridGeometry& g = products.dem.geometry;
     const std::size_t row = cell / g.columns, column = cell % g.columns;
     const Eigen::Vector2d centre_m(g.centreX(column), g.centreY(row));
-    const auto near = nearestPoints(map, centre_m, kCarryingPoints, [&](std::size_t i) {
-        return products.ground_points[i].state == GroundPointState::Used;
-    });
+    const auto near = nearestPoints(map.ground_points_m, centre_m, kCarryingPoints, Carries{products});
     if (near.empty()) return;
     std::vector<CarryingPoint> carrying;
     for (const Distance& d : near) {
@@ -86,11 +89,20 @@ void addSigma(const Products& products, const SurveyMap& map, std::size_t cell, 
 
 }  // namespace
 
+std::optional<NearestPoint> nearestCarrying(const Products& products,
+                                            const std::vector<Eigen::Vector3d>& points_map_m,
+                                            const Eigen::Vector2d& at_m) {
+    const auto nearest = nearestPoints(points_map_m, at_m, 1, Carries{products});
+    if (nearest.empty()) return std::nullopt;
+    return NearestPoint{nearest.front().point, std::sqrt(nearest.front().squared_m2)};
+}
+
 PlaceReport placeReport(const Survey& survey, const Products& products, const SurveyMap& map,
                         const Eigen::Vector2d& at_m) {
     PlaceReport place;
     place.map_m = at_m;
-    for (const Distance& d : nearestPoints(map, at_m, kShownSamples, [](std::size_t) { return true; })) {
+    for (const Distance& d :
+         nearestPoints(map.ground_points_m, at_m, kShownSamples, [](std::size_t) { return true; })) {
         place.nearest.push_back(
             sampleOf(survey, products.ground_points[d.point], map.ground_points_m[d.point], d.squared_m2));
     }

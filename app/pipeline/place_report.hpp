@@ -46,6 +46,17 @@ struct PlaceReport {
     std::vector<NearSample> nearest;  ///< the nearest hits with a place, used or not
 };
 
+/// The ground point next to a place that carries the surface.
+struct NearestPoint {
+    std::size_t point = 0;    ///< of the products
+    double distance_m = 0.0;  ///< in plan
+};
+/// Nothing where no point was used. Costs one look at every ground point. Pure.
+/// @param points_map_m  one for each ground point of the products
+[[nodiscard]] std::optional<NearestPoint> nearestCarrying(const Products& products,
+                                                          const std::vector<Eigen::Vector3d>& points_map_m,
+                                                          const Eigen::Vector2d& at_m);
+
 /// Costs one look at every ground point. Pure.
 /// @param survey  with its edits made; products and map are of it
 [[nodiscard]] PlaceReport placeReport(const Survey& survey, const Products& products, const SurveyMap& map,

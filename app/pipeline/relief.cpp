@@ -83,6 +83,10 @@ std::vector<Colour> reliefRamp() {
     return parseRamp(resources::relief_ramp);
 }
 
+std::vector<Colour> divergingRamp() {
+    return parseRamp(resources::diverging_ramp);
+}
+
 std::vector<Colour> sequentialRamp() {
     return parseRamp(resources::sequential_ramp);
 }

@@ -19,6 +19,8 @@ namespace terrawalk {
 
 /// Colours of heights, from the lowest to the highest.
 [[nodiscard]] std::vector<Colour> reliefRamp();
+/// Colours of a change, from fallen over none, in the middle, to risen.
+[[nodiscard]] std::vector<Colour> divergingRamp();
 /// Colours of any other quantity, such as a sigma.
 [[nodiscard]] std::vector<Colour> sequentialRamp();
 

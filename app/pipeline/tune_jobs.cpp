@@ -95,18 +95,27 @@ Result<TunedSurvey> tuneSurvey(const fs::path& path, const PipelineConfig& confi
     return TunedSurvey{survey->name, std::move(*outcome)};
 }
 
-Result<PipelineConfig> tunedWhereBetter(const Survey& survey, PipelineConfig config,
-                                        const TuneOptions& options, Progress& progress,
-                                        std::stop_token stop) {
+Result<TunedConfig> tunedWithTrace(const Survey& survey, PipelineConfig config, const TuneOptions& options,
+                                   Progress& progress, std::stop_token stop) {
     const auto problem = tunableProblem(survey, config, options.hyperparameters, stop);
     if (!problem) return tl::unexpected(problem.error());
     auto outcome = tune(*problem, config, options, progress, stop);
     if (!outcome) return tl::unexpected(outcome.error());
+    TuneTrace trace = traceOf(*outcome);
+    const double loss = totalLoss(outcome->after);
     TuningRecord record = tuningRecord(*outcome, survey.name);
     record.in_use = outcome->holds_out_better;
     if (record.in_use) config = std::move(outcome->tuned);
     config.tuning = std::move(record);
-    return config;
+    return TunedConfig{std::move(config), loss, std::move(trace)};
+}
+
+Result<PipelineConfig> tunedWhereBetter(const Survey& survey, PipelineConfig config,
+                                        const TuneOptions& options, Progress& progress,
+                                        std::stop_token stop) {
+    auto tuned = tunedWithTrace(survey, std::move(config), options, progress, std::move(stop));
+    if (!tuned) return tl::unexpected(tuned.error());
+    return std::move(tuned->config);
 }
 
 }  // namespace terrawalk

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/pipeline/tune.hpp"
+#include "app/pipeline/tune_trace.hpp"
 
 namespace terrawalk {
 
@@ -30,6 +31,17 @@ struct TunedSurvey {
                                              const PipelineConfig& config, const TuneOptions& options,
                                              const TuneFiles& files, Progress& progress,
                                              std::stop_token stop);
+
+/// A configuration after a search, and how that went.
+struct TunedConfig {
+    PipelineConfig config;
+    double loss = 0.0;  ///< least that was found
+    TuneTrace trace;
+};
+/// As tunedWhereBetter().
+[[nodiscard]] Result<TunedConfig> tunedWithTrace(const Survey& survey, PipelineConfig config,
+                                                 const TuneOptions& options, Progress& progress,
+                                                 std::stop_token stop);
 
 /// The configuration with tuned values where these hold out better than those that it has, and as it is where
 /// they do not; `tuning` tells which, and why.

@@ -2,6 +2,23 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="en" sourcelanguage="en">
     <context>
+        <name>terrawalk::gui::NewSurveyDialog</name>
+        <message numerus="yes">
+            <source>%n mark(s) in %1</source>
+            <translation>
+                <numerusform>%n mark in %1</numerusform>
+                <numerusform>%n marks in %1</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>%n file(s) cannot be used: mend them and add them again, or take them out.</source>
+            <translation>
+                <numerusform>%n file cannot be used: mend it and add it again, or take it out.</numerusform>
+                <numerusform>%n files cannot be used: mend them and add them again, or take them out.</numerusform>
+            </translation>
+        </message>
+    </context>
+    <context>
         <name>terrawalk::gui::StepCard</name>
         <message numerus="yes">
             <source>%n more setting(s)</source>

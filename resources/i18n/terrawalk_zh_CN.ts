@@ -50,6 +50,10 @@
             <source>errors at marks %1 times as long</source>
             <translation>标志点误差放大 %1 倍</translation>
         </message>
+        <message>
+            <source>Change of height</source>
+            <translation>高程变化</translation>
+        </message>
     </context>
     <context>
         <name>MapScene</name>
@@ -456,6 +460,42 @@
             <source>Consistency (NIS)</source>
             <translation>一致性 (NIS)</translation>
         </message>
+        <message>
+            <source>No search is known. Tune the survey on its marks, or open a file that terrawalk tune wrote.</source>
+            <translation>还没有搜索记录。请用标志点调参，或打开 terrawalk tune 写出的文件。</translation>
+        </message>
+        <message>
+            <source>Evaluations of the loss</source>
+            <translation>损失函数计算次数</translation>
+        </message>
+        <message>
+            <source>%1, seed %2</source>
+            <translation>%1，种子 %2</translation>
+        </message>
+        <message>
+            <source>The least loss found so far; it counts every evaluation.</source>
+            <translation>迄今最小的损失；每次计算都计入。</translation>
+        </message>
+        <message>
+            <source>Nothing to compare yet. Tune with several optimisers or seeds, or open the CSV of an experiment such as terrawalk experiment fig10.</source>
+            <translation>还没有可比较的内容。请用多个优化器或种子调参，或打开实验的 CSV，例如 terrawalk experiment fig10。</translation>
+        </message>
+        <message>
+            <source>Optimiser</source>
+            <translation>优化器</translation>
+        </message>
+        <message>
+            <source>Up to %1 searches each. Box: quartiles and median; whiskers: 1.5 box lengths at most.</source>
+            <translation>每个至多 %1 次搜索。箱：四分位数和中位数；须：至多 1.5 倍箱长。</translation>
+        </message>
+        <message>
+            <source>Convergence</source>
+            <translation>收敛过程</translation>
+        </message>
+        <message>
+            <source>Optimisers compared</source>
+            <translation>优化器比较</translation>
+        </message>
     </context>
     <context>
         <name>ProfilePlot</name>
@@ -501,6 +541,18 @@
         <message>
             <source>extrapolated</source>
             <translation>外推</translation>
+        </message>
+        <message>
+            <source>less %1</source>
+            <translation>减去 %1</translation>
+        </message>
+        <message>
+            <source>pale: within 1.96 σ</source>
+            <translation>淡色：在 1.96 σ 以内</translation>
+        </message>
+        <message>
+            <source>σ of the survey alone</source>
+            <translation>仅本次测量的 σ</translation>
         </message>
     </context>
     <context>
@@ -617,6 +669,1329 @@
             <source>above ground</source>
             <translation>高于地面</translation>
         </message>
+        <message>
+            <source>reading</source>
+            <translation>读取</translation>
+        </message>
+        <message>
+            <source>writing</source>
+            <translation>写出</translation>
+        </message>
+        <message>
+            <source>comparing</source>
+            <translation>比较</translation>
+        </message>
+        <message>
+            <source>done</source>
+            <translation>完成</translation>
+        </message>
+        <message>
+            <source>adjusting all runs</source>
+            <translation>整体平差</translation>
+        </message>
+        <message>
+            <source>making the surface</source>
+            <translation>生成曲面</translation>
+        </message>
+        <message>
+            <source>processed</source>
+            <translation>处理完毕</translation>
+        </message>
+        <message>
+            <source>tuned</source>
+            <translation>调参完毕</translation>
+        </message>
+        <message>
+            <source>searching</source>
+            <translation>搜索</translation>
+        </message>
+        <message>
+            <source>triangulating</source>
+            <translation>三角剖分</translation>
+        </message>
+        <message>
+            <source>gridding</source>
+            <translation>格网化</translation>
+        </message>
+        <message>
+            <source>contours</source>
+            <translation>等高线</translation>
+        </message>
+        <message>
+            <source>joining contours</source>
+            <translation>连接等高线</translation>
+        </message>
+        <message>
+            <source>smoothing</source>
+            <translation>平滑</translation>
+        </message>
+        <message>
+            <source>looking for statistical outliers</source>
+            <translation>查找统计粗差</translation>
+        </message>
+        <message>
+            <source>looking for isolated points</source>
+            <translation>查找孤立点</translation>
+        </message>
+        <message>
+            <source>looking for what stands above the ground</source>
+            <translation>查找地面以上物</translation>
+        </message>
+        <message>
+            <source>points cleaned</source>
+            <translation>点已清理</translation>
+        </message>
+        <message>
+            <source>looking for terrace edges</source>
+            <translation>查找梯田边缘</translation>
+        </message>
+        <message>
+            <source>hashing the inputs</source>
+            <translation>计算输入文件校验和</translation>
+        </message>
+        <message>
+            <source>fitting the variogram</source>
+            <translation>拟合变异函数</translation>
+        </message>
+        <message>
+            <source>fitting the B-spline</source>
+            <translation>拟合 B 样条</translation>
+        </message>
+        <message>
+            <source>reading breaklines</source>
+            <translation>读取断裂线</translation>
+        </message>
+        <message>
+            <source>the surface</source>
+            <translation>曲面</translation>
+        </message>
+        <message>
+            <source>the ground points</source>
+            <translation>地面点</translation>
+        </message>
+        <message>
+            <source>the ground below the array</source>
+            <translation>阵列下方地面</translation>
+        </message>
+        <message>
+            <source>none</source>
+            <translation>无</translation>
+        </message>
+        <message>
+            <source>no mark was measured</source>
+            <translation>没有测过标志点</translation>
+        </message>
+        <message>
+            <source>no check mark was compared</source>
+            <translation>没有检核点参与比较</translation>
+        </message>
+        <message>
+            <source>none was measured</source>
+            <translation>没有测过</translation>
+        </message>
+        <message>
+            <source>no surface was made</source>
+            <translation>没有生成曲面</translation>
+        </message>
+        <message>
+            <source>an unknown area</source>
+            <translation>面积未知</translation>
+        </message>
+        <message>
+            <source>too high</source>
+            <translation>偏高</translation>
+        </message>
+        <message>
+            <source>too low</source>
+            <translation>偏低</translation>
+        </message>
+        <message>
+            <source>No accuracy can be stated: the survey has no marks to compare with.</source>
+            <translation>无法说明精度：本次测量没有可比较的标志点。</translation>
+        </message>
+        <message>
+            <source>No accuracy can be stated: no check mark could be compared with the product.</source>
+            <translation>无法说明精度：没有检核点能与成果比较。</translation>
+        </message>
+        <message>
+            <source>The survey has no marks measured by total station. Nothing independent says how far the terrain model is from the ground.</source>
+            <translation>本次测量没有全站仪测定的标志点。没有独立数据说明地形模型与地面相差多少。</translation>
+        </message>
+        <message>
+            <source>No check mark could be compared with the product.</source>
+            <translation>没有检核点能与成果比较。</translation>
+        </message>
+        <message>
+            <source>Whether the check marks stand among plants or in the open is not known: the points were not looked through for what stands on the ground, or too few lie near the marks.</source>
+            <translation>不知道检核点在植被中还是开阔地上：没有检核点云中的地面以上物，或附近的点太少。</translation>
+        </message>
+        <message>
+            <source>no GNSS: raw positions are the start and the velocity summed up from there</source>
+            <translation>没有 GNSS：原始位置由起点和速度累加而得</translation>
+        </message>
+        <message>
+            <source>no known mark to zero the barometer on: it is tied to the median GNSS height of the run</source>
+            <translation>没有可供气压计归零的标志点：取该个航次 GNSS 高程的中位数</translation>
+        </message>
+        <message>
+            <source>no barometer in use: GNSS height is used whatever the fix</source>
+            <translation>未使用气压计：不论定位状态都使用 GNSS 高程</translation>
+        </message>
+        <message>
+            <source>GNSS height of any fix stands in there</source>
+            <translation>此处用任意解的 GNSS 高程代替</translation>
+        </message>
+        <message>
+            <source>nothing measures height there, the walk is taken to climb little</source>
+            <translation>此处没有高程观测，假定航次起伏很小</translation>
+        </message>
+        <message>
+            <source>nothing in the log measures height: it is held near that of the start</source>
+            <translation>记录中没有高程观测：保持在起点高程附近</translation>
+        </message>
+        <message>
+            <source>the adjustment of all runs has no solution: the tracks are those of the filter, crossovers are not used</source>
+            <translation>整体平差无解：轨迹取自滤波器，不使用交叉点</translation>
+        </message>
+        <message>
+            <source>it walks straight, but no mark lies near its end</source>
+            <translation>直线行走，但终点附近没有标志点</translation>
+        </message>
+        <message>
+            <source>it has no positions</source>
+            <translation>没有位置</translation>
+        </message>
+        <message>
+            <source>as told</source>
+            <translation>按指定</translation>
+        </message>
+        <message>
+            <source>no log has positions: say where the zero point is</source>
+            <translation>没有记录含位置：请填写零点</translation>
+        </message>
+        <message>
+            <source>it is a second table of marks</source>
+            <translation>这是第二个标志点表</translation>
+        </message>
+        <message>
+            <source>it is a trajectory, no log of the array</source>
+            <translation>这是轨迹，不是阵列记录</translation>
+        </message>
+        <message>
+            <source>it is neither a log of the array nor a table of marks</source>
+            <translation>既不是阵列记录，也不是标志点表</translation>
+        </message>
+        <message>
+            <source>testing on parts left out</source>
+            <translation>在留出部分上检验</translation>
+        </message>
+        <message>
+            <source>tuning</source>
+            <translation>调参</translation>
+        </message>
+        <message>
+            <source>The search found nothing better than the values that it started from; these stay.</source>
+            <translation>搜索没有找到比初始值更好的值；保留初始值。</translation>
+        </message>
+        <message>
+            <source>There is one part only, so nothing can be left out to test the tuned values on: the default is not replaced by them.</source>
+            <translation>只有一个部分，无法留出数据检验调参结果：不替换默认值。</translation>
+        </message>
+        <message>
+            <source>%1, best loss %2</source>
+            <translation>%1，最小损失 %2</translation>
+        </message>
+        <message>
+            <source>looking at the effect of %1</source>
+            <translation>考察 %1 的影响</translation>
+        </message>
+        <message>
+            <source>The tuned values hold out better than those before: %1.</source>
+            <translation>调参结果在留出数据上优于原值：%1。</translation>
+        </message>
+        <message>
+            <source>The tuned values do not hold out better than those before: %1. `process --tune` does not adopt them.</source>
+            <translation>调参结果在留出数据上不优于原值：%1。`process --tune` 不采用。</translation>
+        </message>
+        <message>
+            <source>on parts left out of the tuning the loss goes from %1 to %2, a gain of %3 with a standard error of %4</source>
+            <translation>在未参与调参的部分上损失由 %1 变为 %2，改进 %3，标准差 %4</translation>
+        </message>
+        <message>
+            <source>reading %1</source>
+            <translation>读取 %1</translation>
+        </message>
+        <message>
+            <source>writing %1</source>
+            <translation>写出 %1</translation>
+        </message>
+        <message>
+            <source>fusing %1</source>
+            <translation>融合 %1</translation>
+        </message>
+        <message>
+            <source>smoothing %1</source>
+            <translation>平滑 %1</translation>
+        </message>
+        <message>
+            <source>fused %1</source>
+            <translation>已融合 %1</translation>
+        </message>
+        <message>
+            <source>Height error of %1 (RMSE)</source>
+            <translation>%1的高程误差（RMSE）</translation>
+        </message>
+        <message>
+            <source>at %1</source>
+            <translation>在 %1 处</translation>
+        </message>
+        <message>
+            <source>%1 check marks</source>
+            <translation>%1 个检核点</translation>
+        </message>
+        <message>
+            <source>%1 check mark</source>
+            <translation>%1 个检核点</translation>
+        </message>
+        <message>
+            <source>%1 control marks</source>
+            <translation>%1 个控制点</translation>
+        </message>
+        <message>
+            <source>%1 control mark</source>
+            <translation>%1 个控制点</translation>
+        </message>
+        <message>
+            <source>%1 marks</source>
+            <translation>%1 个标志点</translation>
+        </message>
+        <message>
+            <source>%1 mark</source>
+            <translation>%1 个标志点</translation>
+        </message>
+        <message>
+            <source>%1 comparisons</source>
+            <translation>%1 次比较</translation>
+        </message>
+        <message>
+            <source>%1 comparison</source>
+            <translation>%1 次比较</translation>
+        </message>
+        <message>
+            <source>at %1; %2 before fusion and %3 now at the %4 that both reach</source>
+            <translation>在 %1 处；两者都到达的 %4 个点上，融合前 %2，现在 %3</translation>
+        </message>
+        <message>
+            <source>at %1; %2 before fusion</source>
+            <translation>在 %1 处；融合前 %2</translation>
+        </message>
+        <message>
+            <source>at %1; sensors as they are</source>
+            <translation>在 %1 处；传感器原始数据</translation>
+        </message>
+        <message>
+            <source>of %1 measured</source>
+            <translation>共测 %1 个</translation>
+        </message>
+        <message>
+            <source>of %1 measured; %2 beside them</source>
+            <translation>共测 %1 个；另有 %2</translation>
+        </message>
+        <message>
+            <source>none was measured; %1 beside them</source>
+            <translation>没有测过；另有 %1</translation>
+        </message>
+        <message>
+            <source>%1 m cells</source>
+            <translation>%1 m 格网</translation>
+        </message>
+        <message>
+            <source>%1 triangulated; %2 ground points</source>
+            <translation>三角剖分 %1；%2 个地面点</translation>
+        </message>
+        <message>
+            <source>Heights of %1 differ from %2 by %3 (vertical RMSE; 95 % interval %4 to %5). With the marks' own error of %6 it is %7.</source>
+            <translation>%1的高程与 %2 相差 %3（高程 RMSE；95 % 区间 %4 至 %5）。计入标志点自身误差 %6 后为 %7。</translation>
+        </message>
+        <message>
+            <source>Heights of %1 differ from %2 by %3 (vertical RMSE; 95 % interval %4 to %5).</source>
+            <translation>%1的高程与 %2 相差 %3（高程 RMSE；95 % 区间 %4 至 %5）。</translation>
+        </message>
+        <message>
+            <source>Heights of %1 differ from %2 by %3 (vertical RMSE). With the marks' own error of %4 it is %5.</source>
+            <translation>%1的高程与 %2 相差 %3（高程 RMSE）。计入标志点自身误差 %4 后为 %5。</translation>
+        </message>
+        <message>
+            <source>Heights of %1 differ from %2 by %3 (vertical RMSE).</source>
+            <translation>%1的高程与 %2 相差 %3（高程 RMSE）。</translation>
+        </message>
+        <message>
+            <source>Tested with %1 check marks, at least the %2 that the ASPRS Positional Accuracy Standards, Edition 2, ask for. No accuracy class is claimed: that takes a class to test against and check marks on open ground.</source>
+            <translation>用 %1 个检核点检验，不少于 ASPRS 位置精度标准第 2 版要求的 %2 个。不声明精度等级：那需要给定等级和开阔地上的检核点。</translation>
+        </message>
+        <message>
+            <source>Tested using the reduced number of %1. The ASPRS Positional Accuracy Standards, Edition 2, ask for %2; with fewer, no accuracy class can be claimed.</source>
+            <translation>仅用 %1 检验。ASPRS 位置精度标准第 2 版要求 %2 个；少于此数不能声明精度等级。</translation>
+        </message>
+        <message>
+            <source>Tested %1 vertical accuracy at 95 % confidence level (NSSDA, FGDC-STD-007.3-1998: 1.9600 times the RMSE of %2).</source>
+            <translation>经检验，95 % 置信水平下高程精度 %1（NSSDA，FGDC-STD-007.3-1998：%2 的 RMSE 的 1.9600 倍）。</translation>
+        </message>
+        <message>
+            <source>By the formula of the NSSDA (FGDC-STD-007.3-1998) it would be %1 vertical accuracy at 95 % confidence level (1.9600 times the RMSE of %2), but the NSSDA asks for %3 and more.</source>
+            <translation>按 NSSDA（FGDC-STD-007.3-1998）公式，95 % 置信水平下高程精度为 %1（%2 的 RMSE 的 1.9600 倍），但 NSSDA 要求 %3 个以上。</translation>
+        </message>
+        <message>
+            <source>Errors in plan turn into errors of height on slopes: the %1 along an axis seen at the stands, times the slope at %2, is %3 (RMSE), %4 % of the mean square height error.</source>
+            <translation>平面误差在斜坡上变成高程误差：静站处沿一轴的 %1 乘以 %2 处的坡度为 %3（RMSE），占高程均方误差的 %4 %。</translation>
+        </message>
+        <message>
+            <source>Before fusion the height RMSE was %1 (%2); at the same %3 it is %4 now, %5 % less.</source>
+            <translation>融合前高程 RMSE 为 %1（%2）；在同样的 %3 上现为 %4，减小 %5 %。</translation>
+        </message>
+        <message>
+            <source>Before fusion the height RMSE was %1 (%2); at the same %3 it is %4 now, %5 % more.</source>
+            <translation>融合前高程 RMSE 为 %1（%2）；在同样的 %3 上现为 %4，增大 %5 %。</translation>
+        </message>
+        <message>
+            <source>Before fusion the height RMSE was %1 (%2); at the same %3 it is %4 now.</source>
+            <translation>融合前高程 RMSE 为 %1（%2）；在同样的 %3 上现为 %4。</translation>
+        </message>
+        <message>
+            <source>%1 of %2 heights (%3 %) lie within 1.96 predicted sigmas; 95 % would be right. The mean square of error over sigma is %4; 1 would be right.</source>
+            <translation>%2 个高程中 %1 个（%3 %）在预测的 1.96 σ 以内；应为 95 %。误差与 σ 之比的均方为 %4；应为 1。</translation>
+        </message>
+        <message>
+            <source>%1 of %2 heights (%3 %) lie within 1.96 predicted sigmas; 95 % would be right. The mean square of error over sigma is %4; 1 would be right, but so few decide little.</source>
+            <translation>%2 个高程中 %1 个（%3 %）在预测的 1.96 σ 以内；应为 95 %。误差与 σ 之比的均方为 %4；应为 1，但数量太少，说明不了多少。</translation>
+        </message>
+        <message>
+            <source>The heights lie %1 on average (%2): more than chance explains. Look for a wrong array height, a wrong start mark or a shifted datum.</source>
+            <translation>高程平均%1（%2）：超出偶然误差。请检查阵列高度、起点标志或基准是否有误。</translation>
+        </message>
+        <message>
+            <source>%1 is off by %2, more than %3 times the RMSE of the others: a possible blunder. It is counted.</source>
+            <translation>%1 偏差 %2，超过其余点 RMSE 的 %3 倍：可能是粗差。已计入。</translation>
+        </message>
+        <message>
+            <source>%1 lies outside the surface and could not be compared: %2.</source>
+            <translation>%1 在曲面之外，无法比较：%2。</translation>
+        </message>
+        <message>
+            <source>%1 lie outside the surface and could not be compared: %2.</source>
+            <translation>%1 在曲面之外，无法比较：%2。</translation>
+        </message>
+        <message>
+            <source>%1 has no ground point near enough and could not be compared: %2.</source>
+            <translation>%1 附近没有地面点，无法比较：%2。</translation>
+        </message>
+        <message>
+            <source>%1 have no ground point near enough and could not be compared: %2.</source>
+            <translation>%1 附近没有地面点，无法比较：%2。</translation>
+        </message>
+        <message>
+            <source>%1 was stood on without a sound range and could not be compared: %2.</source>
+            <translation>%1 上静站时没有可靠测距，无法比较：%2。</translation>
+        </message>
+        <message>
+            <source>%1 were stood on without a sound range and could not be compared: %2.</source>
+            <translation>%1 上静站时没有可靠测距，无法比较：%2。</translation>
+        </message>
+        <message>
+            <source>No check mark was compared. %1 stand in the report apart; errors at marks that may have served alignment or tuning do not certify the product.</source>
+            <translation>没有检核点参与比较。%1 另列于报告中；可能用于对准或调参的标志点上的误差不能证明成果质量。</translation>
+        </message>
+        <message>
+            <source>No check mark was compared, and none of the %1 tells an error that the estimator has not seen.</source>
+            <translation>没有检核点参与比较，%1 中也没有估计器未见过的误差。</translation>
+        </message>
+        <message>
+            <source>Standing on %1, the fused position was off by %2 in plan (RMSE). By the NSSDA that is %3 at 95 % confidence.</source>
+            <translation>在 %1 上静站时，融合位置平面偏差 %2（RMSE）。按 NSSDA，95 % 置信为 %3。</translation>
+        </message>
+        <message>
+            <source>Standing on %1, the fused position was off by %2 in plan (RMSE).</source>
+            <translation>在 %1 上静站时，融合位置平面偏差 %2（RMSE）。</translation>
+        </message>
+        <message>
+            <source>%1 is a small sample: the true error may differ a good deal from the figure found.</source>
+            <translation>%1 样本太少：真实误差可能与所得数值相差很大。</translation>
+        </message>
+        <message>
+            <source>%1 are a small sample: the true error may differ a good deal from the figure found.</source>
+            <translation>%1 样本太少：真实误差可能与所得数值相差很大。</translation>
+        </message>
+        <message>
+            <source>The estimator was tied to the mark or tuned on it in %1; these are listed and never counted.</source>
+            <translation>%1 中估计器受该标志点约束或用其调参；这些只列出，从不计入。</translation>
+        </message>
+        <message>
+            <source>Before fusion there is no surface to compare with: %1.</source>
+            <translation>融合前没有可比较的曲面：%1。</translation>
+        </message>
+        <message>
+            <source>The heights have no standard errors: %1.</source>
+            <translation>高程没有标准差：%1。</translation>
+        </message>
+        <message>
+            <source>The heights have no standard errors, and there is no multiband file: %1.</source>
+            <translation>高程没有标准差，也没有多波段文件：%1。</translation>
+        </message>
+        <message>
+            <source>Run %1 has no records for %2 s: the track there is a guess.</source>
+            <translation>航次 %1 有 %2 s 没有记录：该处轨迹是推测的。</translation>
+        </message>
+        <message>
+            <source>%1 (runs %2)</source>
+            <translation>%1（航次 %2）</translation>
+        </message>
+        <message>
+            <source>no epoch while the array stood on %1</source>
+            <translation>阵列静站于 %1 时没有记录</translation>
+        </message>
+        <message>
+            <source>no range while the array stood on %1: its height above the mark is taken to be %2 m</source>
+            <translation>阵列静站于 %1 时没有测距：其高出标志点取为 %2 m</translation>
+        </message>
+        <message>
+            <source>the barometer was silent on the marks: it is zeroed %1 s away from one</source>
+            <translation>气压计在标志点上没有数据：在相距 %1 s 处归零</translation>
+        </message>
+        <message>
+            <source>the barometer was silent for up to %1 s: %2</source>
+            <translation>气压计中断最长 %1 s：%2</translation>
+        </message>
+        <message>
+            <source>it walks straight and ends %1 m by GNSS from %2</source>
+            <translation>直线行走，终点按 GNSS 距 %2 %1 m</translation>
+        </message>
+        <message>
+            <source>its name says %1</source>
+            <translation>文件名含 %1</translation>
+        </message>
+        <message>
+            <source>it walks %1 m within %2 m</source>
+            <translation>在 %2 m 范围内行走 %1 m</translation>
+        </message>
+        <message>
+            <source>zero point: mean GNSS position of the ground where %1 of %2 walks start, %3 m apart at most; say where it is if you know it better</source>
+            <translation>零点：%2 个航次中 %1 次起点处地面的 GNSS 平均位置，彼此相距至多 %3 m；如有更准确的坐标请填入</translation>
+        </message>
+        <message>
+            <source>%1 is passed over: %2</source>
+            <translation>略过 %1：%2</translation>
+        </message>
+        <message>
+            <source>the fixed-point run %1 has no target mark; name the mark, or make it an area walk</source>
+            <translation>定点航次 %1 没有终点标志；请指定标志点，或改为面积航次</translation>
+        </message>
+        <message>
+            <source>the fixed-point run %1 has no start mark; name the mark, or make it an area walk</source>
+            <translation>定点航次 %1 没有起点标志；请指定标志点，或改为面积航次</translation>
+        </message>
+        <message>
+            <source>two runs are named %1; give each run its own name</source>
+            <translation>有两个航次都叫 %1；请各起一个名字</translation>
+        </message>
+        <message>
+            <source>%1 cannot be the name of a run; use letters, digits, '-', '_' and '.', the first one no '.'</source>
+            <translation>%1 不能作为航次名；请用字母、数字、“-”、“_”和“.”，且不以“.”开头</translation>
+        </message>
+        <message>
+            <source>run %1 names the mark %2, which is not known; correct the name, or give the table with that mark</source>
+            <translation>航次 %1 的标志点 %2 未知；请更正名称，或提供含该点的表</translation>
+        </message>
+    </context>
+    <context>
+        <name>Setting</name>
+        <message>
+            <source>method</source>
+            <translation>方法</translation>
+        </message>
+        <message>
+            <source>smooth</source>
+            <translation>平滑</translation>
+        </message>
+        <message>
+            <source>stands start</source>
+            <translation>起点静站</translation>
+        </message>
+        <message>
+            <source>stands target</source>
+            <translation>终点静站</translation>
+        </message>
+        <message>
+            <source>stands tie fixed targets</source>
+            <translation>定点航次的终点也作约束</translation>
+        </message>
+        <message>
+            <source>unscented alpha</source>
+            <translation>无迹变换 α</translation>
+        </message>
+        <message>
+            <source>unscented beta</source>
+            <translation>无迹变换 β</translation>
+        </message>
+        <message>
+            <source>unscented kappa</source>
+            <translation>无迹变换 κ</translation>
+        </message>
+        <message>
+            <source>process noise position e</source>
+            <translation>过程噪声 东向位置</translation>
+        </message>
+        <message>
+            <source>process noise position n</source>
+            <translation>过程噪声 北向位置</translation>
+        </message>
+        <message>
+            <source>process noise position u</source>
+            <translation>过程噪声 高程</translation>
+        </message>
+        <message>
+            <source>process noise velocity e</source>
+            <translation>过程噪声 东向速度</translation>
+        </message>
+        <message>
+            <source>process noise velocity n</source>
+            <translation>过程噪声 北向速度</translation>
+        </message>
+        <message>
+            <source>process noise velocity u</source>
+            <translation>过程噪声 垂向速度</translation>
+        </message>
+        <message>
+            <source>process noise acceleration e</source>
+            <translation>过程噪声 东向加速度</translation>
+        </message>
+        <message>
+            <source>process noise acceleration n</source>
+            <translation>过程噪声 北向加速度</translation>
+        </message>
+        <message>
+            <source>process noise acceleration u</source>
+            <translation>过程噪声 垂向加速度</translation>
+        </message>
+        <message>
+            <source>process acceleration time constant</source>
+            <translation>加速度时间常数</translation>
+        </message>
+        <message>
+            <source>process longest step</source>
+            <translation>最长步长</translation>
+        </message>
+        <message>
+            <source>initial velocity sigma</source>
+            <translation>初始速度 σ</translation>
+        </message>
+        <message>
+            <source>initial acceleration sigma</source>
+            <translation>初始加速度 σ</translation>
+        </message>
+        <message>
+            <source>initial walking speed</source>
+            <translation>初始步行速度</translation>
+        </message>
+        <message>
+            <source>initial position sigma</source>
+            <translation>初始位置 σ</translation>
+        </message>
+        <message>
+            <source>initial still speed</source>
+            <translation>视为静止的速度</translation>
+        </message>
+        <message>
+            <source>gnss use position</source>
+            <translation>使用 GNSS 位置</translation>
+        </message>
+        <message>
+            <source>gnss use velocity</source>
+            <translation>使用 GNSS 速度</translation>
+        </message>
+        <message>
+            <source>gnss use height</source>
+            <translation>使用 GNSS 高程</translation>
+        </message>
+        <message>
+            <source>gnss sigma single</source>
+            <translation>GNSS σ 单点</translation>
+        </message>
+        <message>
+            <source>gnss sigma differential</source>
+            <translation>GNSS σ 差分</translation>
+        </message>
+        <message>
+            <source>gnss sigma float</source>
+            <translation>GNSS σ 浮点</translation>
+        </message>
+        <message>
+            <source>gnss sigma fixed</source>
+            <translation>GNSS σ 固定</translation>
+        </message>
+        <message>
+            <source>gnss sigma single up</source>
+            <translation>GNSS 高程 σ 单点</translation>
+        </message>
+        <message>
+            <source>gnss sigma differential up</source>
+            <translation>GNSS 高程 σ 差分</translation>
+        </message>
+        <message>
+            <source>gnss sigma float up</source>
+            <translation>GNSS 高程 σ 浮点</translation>
+        </message>
+        <message>
+            <source>gnss sigma fixed up</source>
+            <translation>GNSS 高程 σ 固定</translation>
+        </message>
+        <message>
+            <source>gnss accuracy floor share</source>
+            <translation>GNSS 精度下限比例</translation>
+        </message>
+        <message>
+            <source>gnss correlation</source>
+            <translation>GNSS 相关时间</translation>
+        </message>
+        <message>
+            <source>gnss correlation fixed</source>
+            <translation>GNSS 相关时间 固定解</translation>
+        </message>
+        <message>
+            <source>gnss velocity sigma</source>
+            <translation>GNSS 速度 σ</translation>
+        </message>
+        <message>
+            <source>gnss velocity sigma up</source>
+            <translation>GNSS 垂向速度 σ</translation>
+        </message>
+        <message>
+            <source>gnss velocity correlation</source>
+            <translation>GNSS 速度相关时间</translation>
+        </message>
+        <message>
+            <source>barometer use</source>
+            <translation>使用气压计</translation>
+        </message>
+        <message>
+            <source>barometer scale</source>
+            <translation>气压计比例</translation>
+        </message>
+        <message>
+            <source>barometer sigma</source>
+            <translation>气压计 σ</translation>
+        </message>
+        <message>
+            <source>barometer gust sigma</source>
+            <translation>气压计阵风 σ</translation>
+        </message>
+        <message>
+            <source>barometer gust correlation</source>
+            <translation>气压计阵风相关时间</translation>
+        </message>
+        <message>
+            <source>barometer longest silence</source>
+            <translation>气压计最长中断</translation>
+        </message>
+        <message>
+            <source>barometer drift</source>
+            <translation>气压计漂移</translation>
+        </message>
+        <message>
+            <source>flow use</source>
+            <translation>使用光流</translation>
+        </message>
+        <message>
+            <source>flow variance</source>
+            <translation>光流方差</translation>
+        </message>
+        <message>
+            <source>flow scale sigma</source>
+            <translation>光流比例 σ</translation>
+        </message>
+        <message>
+            <source>flow correlation</source>
+            <translation>光流相关时间</translation>
+        </message>
+        <message>
+            <source>flow smallest quality</source>
+            <translation>光流最低质量</translation>
+        </message>
+        <message>
+            <source>flow bridge dropouts</source>
+            <translation>光流中断补接</translation>
+        </message>
+        <message>
+            <source>flow bridge after</source>
+            <translation>光流补接起始时间</translation>
+        </message>
+        <message>
+            <source>flow bridge sigma</source>
+            <translation>光流补接 σ</translation>
+        </message>
+        <message>
+            <source>flow bridge longest</source>
+            <translation>光流补接最长时间</translation>
+        </message>
+        <message>
+            <source>flow bridge memory</source>
+            <translation>光流补接记忆时间</translation>
+        </message>
+        <message>
+            <source>accelerometer use</source>
+            <translation>使用加速度计</translation>
+        </message>
+        <message>
+            <source>accelerometer sigma</source>
+            <translation>加速度计 σ</translation>
+        </message>
+        <message>
+            <source>yaw row use</source>
+            <translation>使用航向方程</translation>
+        </message>
+        <message>
+            <source>yaw row sigma</source>
+            <translation>航向方程 σ</translation>
+        </message>
+        <message>
+            <source>yaw row slowest</source>
+            <translation>航向方程最低速度</translation>
+        </message>
+        <message>
+            <source>yaw row mount offset</source>
+            <translation>航向安装偏角</translation>
+        </message>
+        <message>
+            <source>attitude sigma tilt</source>
+            <translation>姿态倾斜 σ</translation>
+        </message>
+        <message>
+            <source>attitude sigma heading</source>
+            <translation>姿态航向 σ</translation>
+        </message>
+        <message>
+            <source>attitude sigma tilt held</source>
+            <translation>保持姿态时倾斜 σ</translation>
+        </message>
+        <message>
+            <source>attitude sigma heading held</source>
+            <translation>保持姿态时航向 σ</translation>
+        </message>
+        <message>
+            <source>attitude longest hold</source>
+            <translation>姿态最长保持</translation>
+        </message>
+        <message>
+            <source>attitude sigma tilt unknown</source>
+            <translation>姿态未知时倾斜 σ</translation>
+        </message>
+        <message>
+            <source>ties sigma</source>
+            <translation>约束 σ</translation>
+        </message>
+        <message>
+            <source>ties range sigma</source>
+            <translation>约束测距 σ</translation>
+        </message>
+        <message>
+            <source>ties correlation</source>
+            <translation>约束相关时间</translation>
+        </message>
+        <message>
+            <source>ties range tolerance</source>
+            <translation>约束测距容差</translation>
+        </message>
+        <message>
+            <source>ties shortest range</source>
+            <translation>约束最短测距</translation>
+        </message>
+        <message>
+            <source>ties longest range</source>
+            <translation>约束最长测距</translation>
+        </message>
+        <message>
+            <source>ties assumed height</source>
+            <translation>假定手持高度</translation>
+        </message>
+        <message>
+            <source>ties assumed height sigma</source>
+            <translation>假定手持高度 σ</translation>
+        </message>
+        <message>
+            <source>robust use</source>
+            <translation>使用抗差</translation>
+        </message>
+        <message>
+            <source>robust huber sigma</source>
+            <translation>抗差 Huber σ</translation>
+        </message>
+        <message>
+            <source>robust gate sigma</source>
+            <translation>抗差门限 σ</translation>
+        </message>
+        <message>
+            <source>robust longest gap</source>
+            <translation>抗差最长间隔</translation>
+        </message>
+        <message>
+            <source>robust readmit after</source>
+            <translation>抗差重新接纳时间</translation>
+        </message>
+        <message>
+            <source>divergence largest sigma</source>
+            <translation>发散判据 最大 σ</translation>
+        </message>
+        <message>
+            <source>divergence largest gnss distance</source>
+            <translation>发散判据 与 GNSS 最大距离</translation>
+        </message>
+        <message>
+            <source>divergence patience</source>
+            <translation>发散判据 容忍时间</translation>
+        </message>
+        <message>
+            <source>divergence rejected share</source>
+            <translation>发散判据 剔除比例</translation>
+        </message>
+        <message>
+            <source>divergence fewest rejected</source>
+            <translation>发散判据 最少剔除数</translation>
+        </message>
+        <message>
+            <source>divergence rejected window</source>
+            <translation>发散判据 剔除窗口</translation>
+        </message>
+        <message>
+            <source>aukf filter</source>
+            <translation>AUKF 滤波器</translation>
+        </message>
+        <message>
+            <source>aukf noise position e</source>
+            <translation>AUKF 噪声 东向位置</translation>
+        </message>
+        <message>
+            <source>aukf noise position n</source>
+            <translation>AUKF 噪声 北向位置</translation>
+        </message>
+        <message>
+            <source>aukf noise position u</source>
+            <translation>AUKF 噪声 高程</translation>
+        </message>
+        <message>
+            <source>aukf noise velocity e</source>
+            <translation>AUKF 噪声 东向速度</translation>
+        </message>
+        <message>
+            <source>aukf noise velocity n</source>
+            <translation>AUKF 噪声 北向速度</translation>
+        </message>
+        <message>
+            <source>aukf noise velocity u</source>
+            <translation>AUKF 噪声 垂向速度</translation>
+        </message>
+        <message>
+            <source>aukf noise acceleration e</source>
+            <translation>AUKF 噪声 东向加速度</translation>
+        </message>
+        <message>
+            <source>aukf noise acceleration n</source>
+            <translation>AUKF 噪声 北向加速度</translation>
+        </message>
+        <message>
+            <source>aukf noise acceleration u</source>
+            <translation>AUKF 噪声 垂向加速度</translation>
+        </message>
+        <message>
+            <source>aukf nominal interval</source>
+            <translation>AUKF 标称间隔</translation>
+        </message>
+        <message>
+            <source>aukf unscented alpha</source>
+            <translation>AUKF 无迹变换 α</translation>
+        </message>
+        <message>
+            <source>aukf unscented beta</source>
+            <translation>AUKF 无迹变换 β</translation>
+        </message>
+        <message>
+            <source>aukf unscented kappa</source>
+            <translation>AUKF 无迹变换 κ</translation>
+        </message>
+        <message>
+            <source>aukf yaw row use</source>
+            <translation>AUKF 使用航向方程</translation>
+        </message>
+        <message>
+            <source>aukf yaw row sigma</source>
+            <translation>AUKF 航向方程 σ</translation>
+        </message>
+        <message>
+            <source>aukf yaw row slowest</source>
+            <translation>AUKF 航向方程最低速度</translation>
+        </message>
+        <message>
+            <source>aukf yaw row mount offset</source>
+            <translation>AUKF 航向安装偏角</translation>
+        </message>
+        <message>
+            <source>aukf adaptive forgetting</source>
+            <translation>AUKF 自适应遗忘因子</translation>
+        </message>
+        <message>
+            <source>aukf adaptive least factor</source>
+            <translation>AUKF 自适应最小因子</translation>
+        </message>
+        <message>
+            <source>aukf adaptive greatest factor</source>
+            <translation>AUKF 自适应最大因子</translation>
+        </message>
+        <message>
+            <source>sigma range near</source>
+            <translation>近距测距 σ</translation>
+        </message>
+        <message>
+            <source>sigma range far share</source>
+            <translation>远距测距 σ 比例</translation>
+        </message>
+        <message>
+            <source>range near</source>
+            <translation>近距界限</translation>
+        </message>
+        <message>
+            <source>least range</source>
+            <translation>最短测距</translation>
+        </message>
+        <message>
+            <source>greatest range</source>
+            <translation>最长测距</translation>
+        </message>
+        <message>
+            <source>least strength</source>
+            <translation>最低回波强度</translation>
+        </message>
+        <message>
+            <source>greatest strength</source>
+            <translation>最高回波强度</translation>
+        </message>
+        <message>
+            <source>greatest tilt</source>
+            <translation>最大倾斜</translation>
+        </message>
+        <message>
+            <source>greatest sigma</source>
+            <translation>最大平面 σ</translation>
+        </message>
+        <message>
+            <source>greatest sigma u</source>
+            <translation>最大高程 σ</translation>
+        </message>
+        <message>
+            <source>spike sigma</source>
+            <translation>尖刺 σ</translation>
+        </message>
+        <message>
+            <source>spike window</source>
+            <translation>尖刺窗口</translation>
+        </message>
+        <message>
+            <source>spike floor</source>
+            <translation>尖刺下限</translation>
+        </message>
+        <message>
+            <source>clean statistical use</source>
+            <translation>剔除统计粗差</translation>
+        </message>
+        <message>
+            <source>clean statistical neighbours</source>
+            <translation>统计粗差 邻点数</translation>
+        </message>
+        <message>
+            <source>clean statistical sigmas</source>
+            <translation>统计粗差 σ 倍数</translation>
+        </message>
+        <message>
+            <source>clean radius use</source>
+            <translation>剔除孤立点</translation>
+        </message>
+        <message>
+            <source>clean radius radius</source>
+            <translation>孤立点 半径</translation>
+        </message>
+        <message>
+            <source>clean radius least neighbours</source>
+            <translation>孤立点 最少邻点</translation>
+        </message>
+        <message>
+            <source>clean above ground use</source>
+            <translation>剔除地面以上物</translation>
+        </message>
+        <message>
+            <source>clean above ground cell</source>
+            <translation>地面以上物 格网</translation>
+        </message>
+        <message>
+            <source>clean above ground greatest window</source>
+            <translation>地面以上物 最大窗口</translation>
+        </message>
+        <message>
+            <source>clean above ground slope</source>
+            <translation>地面以上物 坡度</translation>
+        </message>
+        <message>
+            <source>clean above ground least height</source>
+            <translation>地面以上物 最低高度</translation>
+        </message>
+        <message>
+            <source>clean above ground greatest height</source>
+            <translation>地面以上物 最高高度</translation>
+        </message>
+        <message>
+            <source>clean above ground link</source>
+            <translation>地面以上物 连接距离</translation>
+        </message>
+        <message>
+            <source>clean above ground terrace length</source>
+            <translation>地面以上物 梯田长度</translation>
+        </message>
+        <message>
+            <source>thinning cell</source>
+            <translation>抽稀格网</translation>
+        </message>
+        <message>
+            <source>fixed point runs</source>
+            <translation>使用定点航次</translation>
+        </message>
+        <message>
+            <source>longest edge</source>
+            <translation>最长三角形边</translation>
+        </message>
+        <message>
+            <source>terrace edges</source>
+            <translation>梯田边缘</translation>
+        </message>
+        <message>
+            <source>cross validate</source>
+            <translation>交叉验证</translation>
+        </message>
+        <message>
+            <source>cell</source>
+            <translation>格网大小</translation>
+        </message>
+        <message>
+            <source>multiband</source>
+            <translation>多波段文件</translation>
+        </message>
+        <message>
+            <source>nearest sample limit</source>
+            <translation>最近点界限</translation>
+        </message>
+        <message>
+            <source>seed</source>
+            <translation>随机种子</translation>
+        </message>
+        <message>
+            <source>lasting gnss correlation</source>
+            <translation>持续误差 GNSS 相关时间</translation>
+        </message>
+        <message>
+            <source>lasting gnss white share</source>
+            <translation>持续误差 GNSS 白噪声比例</translation>
+        </message>
+        <message>
+            <source>lasting gnss white share fixed</source>
+            <translation>持续误差 GNSS 白噪声比例 固定解</translation>
+        </message>
+        <message>
+            <source>lasting heading sigma</source>
+            <translation>持续误差 航向 σ</translation>
+        </message>
+        <message>
+            <source>lasting heading correlation</source>
+            <translation>持续误差 航向相关时间</translation>
+        </message>
+        <message>
+            <source>lasting hard iron sigma</source>
+            <translation>持续误差 硬磁 σ</translation>
+        </message>
+        <message>
+            <source>lasting hard iron run sigma</source>
+            <translation>持续误差 单次硬磁 σ</translation>
+        </message>
+        <message>
+            <source>lasting flow scale sigma</source>
+            <translation>持续误差 光流比例 σ</translation>
+        </message>
+        <message>
+            <source>lasting flow axes sigma</source>
+            <translation>持续误差 光流轴向 σ</translation>
+        </message>
+        <message>
+            <source>lasting gyro bias sigma dps</source>
+            <translation>持续误差 陀螺零偏 σ (°/s)</translation>
+        </message>
+        <message>
+            <source>lasting gyro walk deg per sqrt</source>
+            <translation>持续误差 陀螺随机游走 (°/√s)</translation>
+        </message>
+        <message>
+            <source>lasting acceleration bias sigma</source>
+            <translation>持续误差 加速度零偏 σ</translation>
+        </message>
+        <message>
+            <source>lasting acceleration bias correlation</source>
+            <translation>持续误差 加速度零偏相关时间</translation>
+        </message>
+        <message>
+            <source>lasting tilt correlation</source>
+            <translation>持续误差 倾斜相关时间</translation>
+        </message>
+        <message>
+            <source>drift climb sigma</source>
+            <translation>漂移滤波 爬升 σ</translation>
+        </message>
+        <message>
+            <source>drift climb correlation</source>
+            <translation>漂移滤波 爬升相关时间</translation>
+        </message>
+        <message>
+            <source>drift adapt</source>
+            <translation>漂移滤波 自适应</translation>
+        </message>
+        <message>
+            <source>drift adapt memory</source>
+            <translation>漂移滤波 自适应记忆</translation>
+        </message>
+        <message>
+            <source>drift least factor</source>
+            <translation>漂移滤波 最小因子</translation>
+        </message>
+        <message>
+            <source>drift greatest factor</source>
+            <translation>漂移滤波 最大因子</translation>
+        </message>
+        <message>
+            <source>joint knot</source>
+            <translation>整体平差 节点间隔</translation>
+        </message>
+        <message>
+            <source>joint heading knot</source>
+            <translation>整体平差 航向节点</translation>
+        </message>
+        <message>
+            <source>joint gnss knot</source>
+            <translation>整体平差 GNSS 节点</translation>
+        </message>
+        <message>
+            <source>joint barometer knot</source>
+            <translation>整体平差 气压计节点</translation>
+        </message>
+        <message>
+            <source>joint rounds</source>
+            <translation>整体平差 轮数</translation>
+        </message>
+        <message>
+            <source>joint use crossovers</source>
+            <translation>整体平差 使用交叉点</translation>
+        </message>
+        <message>
+            <source>joint adapt noise</source>
+            <translation>整体平差 噪声自适应</translation>
+        </message>
+        <message>
+            <source>joint crossovers spacing</source>
+            <translation>交叉点 间距</translation>
+        </message>
+        <message>
+            <source>joint crossovers gate</source>
+            <translation>交叉点 门限</translation>
+        </message>
+        <message>
+            <source>joint crossovers radius</source>
+            <translation>交叉点 半径</translation>
+        </message>
+        <message>
+            <source>joint crossovers apart</source>
+            <translation>交叉点 最短时间差</translation>
+        </message>
+        <message>
+            <source>joint crossovers bandwidth</source>
+            <translation>交叉点 带宽</translation>
+        </message>
+        <message>
+            <source>joint crossovers ridge</source>
+            <translation>交叉点 岭参数</translation>
+        </message>
+        <message>
+            <source>joint crossovers fewest points</source>
+            <translation>交叉点 最少点数</translation>
+        </message>
+        <message>
+            <source>joint pair sigma</source>
+            <translation>点对 σ</translation>
+        </message>
+        <message>
+            <source>joint pair even slope</source>
+            <translation>点对 均匀坡度</translation>
+        </message>
+        <message>
+            <source>joint pair uneven</source>
+            <translation>点对 不平整度</translation>
+        </message>
+        <message>
+            <source>joint pair apart per</source>
+            <translation>点对 每米距离的误差</translation>
+        </message>
+        <message>
+            <source>joint pair plan share</source>
+            <translation>点对 平面比例</translation>
+        </message>
+        <message>
+            <source>joint pair weight</source>
+            <translation>点对 权</translation>
+        </message>
+        <message>
+            <source>joint left out crossovers</source>
+            <translation>留出的交叉点</translation>
+        </message>
+        <message>
+            <source>joint walk mps per sqrt</source>
+            <translation>整体平差 行走 (m/s/√s)</translation>
+        </message>
+        <message>
+            <source>joint ground roughness</source>
+            <translation>地面粗糙度</translation>
+        </message>
+        <message>
+            <source>joint ground climb m per sqrt</source>
+            <translation>地面爬升 (m/√m)</translation>
+        </message>
+        <message>
+            <source>joint acceleration noise</source>
+            <translation>整体平差 加速度噪声</translation>
+        </message>
+        <message>
+            <source>joint acceleration knot</source>
+            <translation>整体平差 加速度节点</translation>
+        </message>
+        <message>
+            <source>joint blind climb m per sqrt</source>
+            <translation>无高程观测时爬升 (m/√s)</translation>
+        </message>
+        <message>
+            <source>stretches</source>
+            <translation>剔除的路段</translation>
+        </message>
+        <message>
+            <source>runs</source>
+            <translation>剔除的航次</translation>
+        </message>
+        <message>
+            <source>marks</source>
+            <translation>剔除的标志点</translation>
+        </message>
+        <message>
+            <source>lines</source>
+            <translation>绘制的线</translation>
+        </message>
     </context>
     <context>
         <name>Steps</name>
@@ -698,6 +2073,57 @@
         <message>
             <source>, contours every %1</source>
             <translation>，等高距 %1</translation>
+        </message>
+    </context>
+    <context>
+        <name>ViewState</name>
+        <message>
+            <source>Shaded heights</source>
+            <translation>晕渲高程</translation>
+        </message>
+        <message>
+            <source>Uncertainty</source>
+            <translation>不确定度</translation>
+        </message>
+        <message>
+            <source>Point density</source>
+            <translation>点密度</translation>
+        </message>
+        <message>
+            <source>Source of heights</source>
+            <translation>高程来源</translation>
+        </message>
+        <message>
+            <source>Change of height</source>
+            <translation>高程变化</translation>
+        </message>
+        <message>
+            <source>No ground</source>
+            <translation>不显示地面</translation>
+        </message>
+        <message>
+            <source>Tracks by run</source>
+            <translation>轨迹按航次</translation>
+        </message>
+        <message>
+            <source>Tracks by fix</source>
+            <translation>轨迹按定位状态</translation>
+        </message>
+        <message>
+            <source>Tracks by speed</source>
+            <translation>轨迹按速度</translation>
+        </message>
+        <message>
+            <source>Tracks by height</source>
+            <translation>轨迹按高程</translation>
+        </message>
+        <message>
+            <source>Tracks by plan σ</source>
+            <translation>轨迹按平面 σ</translation>
+        </message>
+        <message>
+            <source>Tracks by height σ</source>
+            <translation>轨迹按高程 σ</translation>
         </message>
     </context>
     <context>
@@ -1159,6 +2585,102 @@
             <source>Saved to %1.</source>
             <translation>已保存到 %1。</translation>
         </message>
+        <message>
+            <source>Tunings and experiments (*.json *.csv);;All files (*)</source>
+            <translation>调参和实验 (*.json *.csv);;所有文件 (*)</translation>
+        </message>
+        <message>
+            <source>Rasters (*.tif *.asc);;All files (*)</source>
+            <translation>栅格 (*.tif *.asc);;所有文件 (*)</translation>
+        </message>
+        <message>
+            <source>Tuning or experiment</source>
+            <translation>调参或实验</translation>
+        </message>
+        <message>
+            <source>&amp;New from files…</source>
+            <translation>从文件新建(&amp;N)…</translation>
+        </message>
+        <message>
+            <source>Save settings &amp;as…</source>
+            <translation>设置另存为(&amp;A)…</translation>
+        </message>
+        <message>
+            <source>Co&amp;mpare with</source>
+            <translation>比较对象(&amp;M)</translation>
+        </message>
+        <message>
+            <source>Shows how the heights changed, as a layer of map and 3-D view</source>
+            <translation>以地图和三维视图的图层显示高程变化</translation>
+        </message>
+        <message>
+            <source>The run of %1</source>
+            <translation>%1 的处理</translation>
+        </message>
+        <message>
+            <source>No other run yet</source>
+            <translation>还没有其他处理结果</translation>
+        </message>
+        <message>
+            <source>Another DEM…</source>
+            <translation>其他 DEM…</translation>
+        </message>
+        <message>
+            <source>Earlier heights of the same ground</source>
+            <translation>同一地面的早期高程</translation>
+        </message>
+        <message>
+            <source>Nothing</source>
+            <translation>不比较</translation>
+        </message>
+        <message>
+            <source>Save settings as</source>
+            <translation>设置另存为</translation>
+        </message>
+        <message>
+            <source>Where to begin: a survey that is there, a new one from loose files, or a sample.</source>
+            <translation>从这里开始：打开已有测量、用零散文件新建，或打开示例。</translation>
+        </message>
+        <message>
+            <source>The map. Drag moves it, the wheel zooms about the cursor, a click tells what is there. The tools above measure, select and draw; Escape leaves them.</source>
+            <translation>地图。拖动平移，滚轮以光标为中心缩放，单击查询该处。上方工具可量测、选择和绘制；Esc 退出工具。</translation>
+        </message>
+        <message>
+            <source>The surface in three dimensions. Drag turns it, a right drag moves it, the wheel comes nearer; a click tells what is known of a place.</source>
+            <translation>三维曲面。拖动旋转，右键拖动平移，滚轮拉近；单击查询该处。</translation>
+        </message>
+        <message>
+            <source>Plots of the sensors, the fused runs, errors at marks and searches for parameters. Drag along the time axis selects a stretch in all views.</source>
+            <translation>传感器、融合航次、标志点误差和参数搜索的图表。沿时间轴拖动可在所有视图中选中一段。</translation>
+        </message>
+        <message>
+            <source>How far the results lie from the marks: figures, groups of errors, what they say and what they cannot say.</source>
+            <translation>成果与标志点相差多少：数值、分组误差，它们说明了什么，又不能说明什么。</translation>
+        </message>
+        <message>
+            <source>The report as it will be printed; save it as PDF or print it here.</source>
+            <translation>报告的打印样式；可在此存为 PDF 或打印。</translation>
+        </message>
+        <message>
+            <source>Runs, marks, edits and results. The box shows or hides a thing in all views; the right button leaves a run or a mark out, or takes an edit back.</source>
+            <translation>航次、标志点、编辑和成果。方框控制在所有视图中显示或隐藏；右键可剔除航次或标志点，或撤回编辑。</translation>
+        </message>
+        <message>
+            <source>What is known of the place that was clicked: its height, where the error comes from, the nearest hits, and what another pass would give.</source>
+            <translation>所单击处的信息：高程、误差来源、最近的测点，以及再走一遍会有什么改进。</translation>
+        </message>
+        <message>
+            <source>The way from logs to a DEM, from above to below. Each step shows its important settings; the others unfold.</source>
+            <translation>从记录到 DEM 的步骤，自上而下。每步显示重要设置，其余可展开。</translation>
+        </message>
+        <message>
+            <source>Heights along the line that was drawn on the map, with their 95 % band and marks beside it.</source>
+            <translation>沿地图上所画线的高程，含 95 % 区间和旁边的标志点。</translation>
+        </message>
+        <message>
+            <source>What the program did and what went wrong, with the cure. Newest below.</source>
+            <translation>程序做了什么、出了什么问题及如何解决。最新的在最下面。</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::MapPanel</name>
@@ -1175,64 +2697,12 @@
             <translation>地面按什么着色</translation>
         </message>
         <message>
-            <source>Shaded heights</source>
-            <translation>晕渲高程</translation>
-        </message>
-        <message>
-            <source>Uncertainty</source>
-            <translation>不确定度</translation>
-        </message>
-        <message>
-            <source>Point density</source>
-            <translation>点密度</translation>
-        </message>
-        <message>
-            <source>Source of heights</source>
-            <translation>高程来源</translation>
-        </message>
-        <message>
-            <source>No ground</source>
-            <translation>不显示地面</translation>
-        </message>
-        <message>
             <source>Colour of the tracks</source>
             <translation>轨迹颜色</translation>
         </message>
         <message>
             <source>What the tracks are coloured by</source>
             <translation>轨迹按什么着色</translation>
-        </message>
-        <message>
-            <source>Tracks by run</source>
-            <translation>轨迹按航次</translation>
-        </message>
-        <message>
-            <source>Tracks by fix</source>
-            <translation>轨迹按定位状态</translation>
-        </message>
-        <message>
-            <source>Tracks by speed</source>
-            <translation>轨迹按速度</translation>
-        </message>
-        <message>
-            <source>Tracks by height</source>
-            <translation>轨迹按高程</translation>
-        </message>
-        <message>
-            <source>Tracks by plan σ</source>
-            <translation>轨迹按平面 σ</translation>
-        </message>
-        <message>
-            <source>Tracks by height σ</source>
-            <translation>轨迹按高程 σ</translation>
-        </message>
-        <message>
-            <source>Contours</source>
-            <translation>等高线</translation>
-        </message>
-        <message>
-            <source>Contours of the surface</source>
-            <translation>曲面的等高线</translation>
         </message>
         <message>
             <source>Move and ask</source>
@@ -1302,6 +2772,22 @@
             <source>Show all (Home)</source>
             <translation>显示全部 (Home)</translation>
         </message>
+        <message>
+            <source>Show</source>
+            <translation>显示</translation>
+        </message>
+        <message>
+            <source>What is drawn on the ground, here and in the 3-D view</source>
+            <translation>地面上绘制的内容，此处和三维视图相同</translation>
+        </message>
+        <message>
+            <source>What the ground is coloured by, here and in the 3-D view: shaded heights; their standard error; how many points a square metre has; whether a height was measured, interpolated or extrapolated; and, once View &gt; Compare with has something to compare, how the heights changed.</source>
+            <translation>地面的着色方式，此处和三维视图相同：晕渲高程；其标准差；每平方米点数；高程是实测、内插还是外推；以及在“视图 &gt; 比较对象”选定后的高程变化。</translation>
+        </message>
+        <message>
+            <source>What the tracks are coloured by: one colour for each run, the GNSS fix, speed, height, or standard errors of the fused track.</source>
+            <translation>轨迹的着色方式：每个航次一种颜色、GNSS 定位状态、速度、高程，或融合轨迹的标准差。</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::MapView</name>
@@ -1320,6 +2806,201 @@
         <message>
             <source>, area %1 m²</source>
             <translation>，面积 %1 m²</translation>
+        </message>
+    </context>
+    <context>
+        <name>terrawalk::gui::NewSurveyDialog</name>
+        <message>
+            <source>New survey from files</source>
+            <translation>从文件新建测量</translation>
+        </message>
+        <message>
+            <source>Tables (*.csv);;All files (*)</source>
+            <translation>表格 (*.csv);;所有文件 (*)</translation>
+        </message>
+        <message>
+            <source>Add the logs of the array and the table of marks. What they are is guessed: look it over, and correct it.</source>
+            <translation>添加阵列记录和标志点表。程序会推测它们的内容：请检查并更正。</translation>
+        </message>
+        <message>
+            <source>Add files…</source>
+            <translation>添加文件…</translation>
+        </message>
+        <message>
+            <source>Logs and marks</source>
+            <translation>记录和标志点</translation>
+        </message>
+        <message>
+            <source>Add a folder…</source>
+            <translation>添加文件夹…</translation>
+        </message>
+        <message>
+            <source>Folder with logs and marks</source>
+            <translation>含记录和标志点的文件夹</translation>
+        </message>
+        <message>
+            <source>Take out</source>
+            <translation>移除</translation>
+        </message>
+        <message>
+            <source>Create and open</source>
+            <translation>创建并打开</translation>
+        </message>
+        <message>
+            <source>Runs</source>
+            <translation>航次</translation>
+        </message>
+        <message>
+            <source>Run</source>
+            <translation>航次</translation>
+        </message>
+        <message>
+            <source>Log</source>
+            <translation>记录</translation>
+        </message>
+        <message>
+            <source>Kind</source>
+            <translation>类型</translation>
+        </message>
+        <message>
+            <source>Starts on</source>
+            <translation>起点</translation>
+        </message>
+        <message>
+            <source>Ends on</source>
+            <translation>终点</translation>
+        </message>
+        <message>
+            <source>min:s</source>
+            <translation>分:秒</translation>
+        </message>
+        <message>
+            <source>Why</source>
+            <translation>依据</translation>
+        </message>
+        <message>
+            <source>Name</source>
+            <translation>名称</translation>
+        </message>
+        <message>
+            <source>Latitude of the zero point</source>
+            <translation>零点纬度</translation>
+        </message>
+        <message>
+            <source>Longitude of the zero point</source>
+            <translation>零点经度</translation>
+        </message>
+        <message>
+            <source>Ellipsoidal height of the zero point</source>
+            <translation>零点椭球高</translation>
+        </message>
+        <message>
+            <source>° N</source>
+            <translation>°北纬</translation>
+        </message>
+        <message>
+            <source>° E</source>
+            <translation>°东经</translation>
+        </message>
+        <message>
+            <source>m above the ellipsoid</source>
+            <translation>m（椭球高）</translation>
+        </message>
+        <message>
+            <source>Zero point</source>
+            <translation>零点</translation>
+        </message>
+        <message>
+            <source>Map frame</source>
+            <translation>地图坐标系</translation>
+        </message>
+        <message>
+            <source>An EPSG code such as EPSG:32649; empty: metres east and north of the zero point</source>
+            <translation>EPSG 代码，例如 EPSG:32649；留空：自零点向东、向北的米数</translation>
+        </message>
+        <message>
+            <source>Survey file</source>
+            <translation>测量文件</translation>
+        </message>
+        <message>
+            <source>There is a survey already: replace it</source>
+            <translation>已有测量文件：替换</translation>
+        </message>
+        <message>
+            <source>Kind of %1</source>
+            <translation>%1 的类型</translation>
+        </message>
+        <message>
+            <source>area walk</source>
+            <translation>面积航次</translation>
+        </message>
+        <message>
+            <source>fixed-point run</source>
+            <translation>定点航次</translation>
+        </message>
+        <message>
+            <source>–</source>
+            <translation>–</translation>
+        </message>
+        <message>
+            <source>Start of %1</source>
+            <translation>%1 的起点</translation>
+        </message>
+        <message>
+            <source>End of %1</source>
+            <translation>%1 的终点</translation>
+        </message>
+        <message>
+            <source>no table of marks</source>
+            <translation>没有标志点表</translation>
+        </message>
+        <message numerus="yes">
+            <source>%n mark(s) in %1</source>
+            <translation>
+                <numerusform>%1 中有 %n 个标志点</numerusform>
+            </translation>
+        </message>
+        <message>
+            <source>Give the survey a name.</source>
+            <translation>请给测量起个名称。</translation>
+        </message>
+        <message>
+            <source>The latitude is a number from −90 to 90, with a dot.</source>
+            <translation>纬度是 −90 到 90 的数，小数点用“.”。</translation>
+        </message>
+        <message>
+            <source>The longitude is a number from −180 to 180, with a dot.</source>
+            <translation>经度是 −180 到 180 的数，小数点用“.”。</translation>
+        </message>
+        <message>
+            <source>The height is a number of metres from −1000 to 10000, with a dot.</source>
+            <translation>高程是 −1000 到 10000 的米数，小数点用“.”。</translation>
+        </message>
+        <message>
+            <source>The files are being read…</source>
+            <translation>正在读取文件…</translation>
+        </message>
+        <message>
+            <source>Add at least one log of the array, or drop files onto this window.</source>
+            <translation>请至少添加一个阵列记录，或把文件拖到此窗口。</translation>
+        </message>
+        <message numerus="yes">
+            <source>%n file(s) cannot be used: mend them and add them again, or take them out.</source>
+            <translation>
+                <numerusform>%n 个文件无法使用：请修正后重新添加，或移除。</numerusform>
+            </translation>
+        </message>
+        <message>
+            <source>Name a file for the survey, such as survey.json.</source>
+            <translation>请指定测量文件，例如 survey.json。</translation>
+        </message>
+        <message>
+            <source>%1 does not exist: make it first, or choose another place.</source>
+            <translation>%1 不存在：请先创建，或选择其他位置。</translation>
+        </message>
+        <message>
+            <source>%1 is there already: choose another name, or let it be replaced.</source>
+            <translation>%1 已存在：请换个名称，或允许替换。</translation>
         </message>
     </context>
     <context>
@@ -1511,6 +3192,14 @@
             <source>Drag along the time axis to select a stretch first</source>
             <translation>请先沿时间轴拖动以选择一段</translation>
         </message>
+        <message>
+            <source>Open a tuning or an experiment…</source>
+            <translation>打开调参或实验…</translation>
+        </message>
+        <message>
+            <source>A file that terrawalk tune wrote, or the CSV of terrawalk experiment fig10 and its like</source>
+            <translation>terrawalk tune 写出的文件，或 terrawalk experiment fig10 等的 CSV</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::PointCard</name>
@@ -1677,6 +3366,41 @@
         </message>
     </context>
     <context>
+        <name>terrawalk::gui::ShowMenu</name>
+        <message>
+            <source>Show</source>
+            <translation>显示</translation>
+        </message>
+        <message>
+            <source>Tracks</source>
+            <translation>轨迹</translation>
+        </message>
+        <message>
+            <source>Ground points</source>
+            <translation>地面点</translation>
+        </message>
+        <message>
+            <source>Marks</source>
+            <translation>标志点</translation>
+        </message>
+        <message>
+            <source>Contours</source>
+            <translation>等高线</translation>
+        </message>
+        <message>
+            <source>Terrace edges</source>
+            <translation>梯田边缘</translation>
+        </message>
+        <message>
+            <source>Ground</source>
+            <translation>地面</translation>
+        </message>
+        <message>
+            <source>Colour of the tracks</source>
+            <translation>轨迹颜色</translation>
+        </message>
+    </context>
+    <context>
         <name>terrawalk::gui::StartPage</name>
         <message>
             <source>Quick plot: a small one, done in a second</source>
@@ -1699,10 +3423,6 @@
             <translation>survey.json 或其所在文件夹，也可拖放到此窗口。</translation>
         </message>
         <message>
-            <source>or drop a survey.json, or its folder, onto this window</source>
-            <translation>或将 survey.json 或其文件夹拖放到此窗口</translation>
-        </message>
-        <message>
             <source>Samples: one click to a finished DEM</source>
             <translation>样例：单击即得 DEM</translation>
         </message>
@@ -1713,6 +3433,18 @@
         <message>
             <source>None yet: the surveys that you open will stand here.</source>
             <translation>暂无：打开过的测量将显示在这里。</translation>
+        </message>
+        <message>
+            <source>New survey from files…</source>
+            <translation>从文件新建测量…</translation>
+        </message>
+        <message>
+            <source>From array logs and a table of marks. Or drop them onto this window.</source>
+            <translation>用阵列记录和标志点表。也可以把它们拖到此窗口。</translation>
+        </message>
+        <message>
+            <source>or drop a survey.json, its folder, or logs and marks onto this window</source>
+            <translation>或把 survey.json、其文件夹，或记录和标志点拖到此窗口</translation>
         </message>
     </context>
     <context>
@@ -1852,6 +3584,26 @@
             <source>Stop what is running; nothing is lost (Ctrl+.)</source>
             <translation>停止当前任务，不会丢失任何内容 (Ctrl+.)</translation>
         </message>
+        <message>
+            <source>Who searches</source>
+            <translation>优化器</translation>
+        </message>
+        <message>
+            <source>The optimiser that searches; Plots &gt; Optimisers compared shows them side by side</source>
+            <translation>进行搜索的优化器；“图表 &gt; 优化器比较”并排显示</translation>
+        </message>
+        <message>
+            <source>Searches</source>
+            <translation>搜索次数</translation>
+        </message>
+        <message>
+            <source>Searches with seeds one after the other; the best of them is taken</source>
+            <translation>用连续的种子搜索；取其中最好的</translation>
+        </message>
+        <message>
+            <source>× </source>
+            <translation>× </translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::SurveySession</name>
@@ -1918,6 +3670,18 @@
         <message>
             <source>%1: cannot be written (%2); check that you may write there</source>
             <translation>%1：无法写入（%2），请检查写入权限</translation>
+        </message>
+        <message>
+            <source>the run of %1</source>
+            <translation>%1 的处理</translation>
+        </message>
+        <message>
+            <source>Less %1: median %2, RMS %3 m.</source>
+            <translation>减去%1：中位数 %2，RMS %3 m。</translation>
+        </message>
+        <message>
+            <source>%1 % of the cells changed beyond 1.96 σ.</source>
+            <translation>%1 % 的格网变化超出 1.96 σ。</translation>
         </message>
     </context>
     <context>
@@ -2160,26 +3924,6 @@
             <translation>显示</translation>
         </message>
         <message>
-            <source>What is drawn on the surface</source>
-            <translation>曲面上绘制的内容</translation>
-        </message>
-        <message>
-            <source>Tracks, laid on the surface</source>
-            <translation>贴在曲面上的轨迹</translation>
-        </message>
-        <message>
-            <source>Ground points</source>
-            <translation>地面点</translation>
-        </message>
-        <message>
-            <source>Marks</source>
-            <translation>标志点</translation>
-        </message>
-        <message>
-            <source>Contours</source>
-            <translation>等高线</translation>
-        </message>
-        <message>
             <source>Reset</source>
             <translation>复位</translation>
         </message>
@@ -2202,6 +3946,10 @@
         <message>
             <source>No surface yet. Process the survey to see it here.</source>
             <translation>尚无曲面。处理测量后在此查看。</translation>
+        </message>
+        <message>
+            <source>What is drawn on the surface, here and on the map</source>
+            <translation>曲面上绘制的内容，此处和地图相同</translation>
         </message>
     </context>
 </TS>

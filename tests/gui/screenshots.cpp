@@ -1,5 +1,5 @@
-// Pictures of the window's views for people to look at: screenshots FOLDER [SURVEY]. Needs a display, such as
-// Xvfb's.
+// Pictures of the window's views for people to look at: screenshots FOLDER [SURVEY [ONLY]]. Needs a display,
+// such as Xvfb's. ONLY is a part of the names of those that are made, e.g. dark_1920x1080 or zh.
 #include <QApplication>
 #include <QComboBox>
 #include <QDir>
@@ -13,6 +13,7 @@
 
 #include "app/gui/desktop.hpp"
 #include "app/gui/language.hpp"
+#include "app/gui/new_survey_dialog.hpp"
 #include "app/gui/report_view.hpp"
 #include "app/gui/terrain_view.hpp"
 #include "app/gui/theme.hpp"
@@ -52,7 +53,15 @@ class Camera {
     QString suffix_;
 };
 
-void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size, const QString& language) {
+QString suffixOf(Theme theme, QSize size, const QString& language) {
+    return QString("_%1_%2x%3_%4")
+        .arg(theme == Theme::Dark ? "dark" : "light")
+        .arg(size.width())
+        .arg(size.height())
+        .arg(language);
+}
+
+void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size, const QString& suffix) {
     QSettings().clear();
     QSettings().setValue("theme", theme == Theme::Dark ? "dark" : "light");
     applyTheme(theme);
@@ -61,12 +70,7 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
     window.resize(size);
     window.show();
     QTest::qWait(100);
-    Camera camera(window, folder,
-                  QString("_%1_%2x%3_%4")
-                      .arg(theme == Theme::Dark ? "dark" : "light")
-                      .arg(size.width())
-                      .arg(size.height())
-                      .arg(language));
+    Camera camera(window, folder, suffix);
     camera.shoot("start");
     SurveySession& session = window.session();
     window.open(survey);
@@ -84,13 +88,21 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
     };
     choose("layers", 1);
     choose("colourings", 5);
-    window.findChild<QAction*>("contours")->setChecked(true);
     camera.shoot("uncertainty");
     choose("layers", 0);
     Q_EMIT window.map().lineDrawn(
         MapTool::Profile, QPolygonF({extent.center() - QPointF(5, 25), extent.center() + QPointF(5, 25)}));
     camera.shoot("profile");
     window.findChild<QDockWidget*>("dock_profile")->hide();
+    // What the surface would be without the adjustment of all runs.
+    session.changeSetting("fusion.method", "ukf");
+    session.process();
+    waitFor([&] { return session.history().size() == 2 && !session.busy(); }, 300000);
+    session.goBackTo(0);
+    session.compareWith(1);
+    waitFor([&] { return !session.busy() && session.viewState().now().change; }, 60000);
+    camera.shoot("change");
+    session.compareWithNothing();
     choose("colourings", 1);
     const MapTrack& track = session.map()->tracks.back();
     const std::size_t n = track.time_s.size();
@@ -111,6 +123,13 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
         camera.shoot(QString("view%1").arg(tab));
     }
     views->setCurrentIndex(0);
+    window.newSurvey({survey + "/logs", survey + "/control.csv"});
+    if (auto* dialog = window.findChild<NewSurveyDialog*>()) {
+        waitFor([&] { return !dialog->reading(); }, 60000);
+        camera.shoot("dialog_new", dialog);
+        dialog->close();
+        QTest::qWait(50);
+    }
     for (const char* name : {"export", "shortcuts", "about"}) {
         window.findChild<QAction*>(name)->trigger();
         QTest::qWait(150);
@@ -133,19 +152,19 @@ int main(int argc, char** argv) {
     QApplication::setOrganizationName("Terrawalk");
     QApplication::setApplicationName("terrawalk-screenshots");
     if (argc < 2) {
-        std::fprintf(stderr, "usage: screenshots FOLDER [SURVEY [quick]]\n");
+        std::fprintf(stderr, "usage: screenshots FOLDER [SURVEY [ONLY]]\n");
         return 2;
     }
     const QDir folder(argv[1]);
     folder.mkpath(".");
     const QString survey = argc > 2 ? argv[2] : TERRAWALK_SOURCE_DIR "/sample_surveys/mango_orchard";
-    const bool quick = argc > 3;
-    for (const QString& language : quick ? QStringList{"en"} : QStringList{"en", "zh"}) {
+    const QString only = argc > 3 ? argv[3] : "";
+    for (const QString& language : {QString("en"), QString("zh")}) {
         applyLanguage(language);
         for (const Theme theme : {Theme::Light, Theme::Dark}) {
-            for (const QSize& size :
-                 quick ? QList<QSize>{{1280, 800}} : QList<QSize>{{1280, 800}, {1920, 1080}}) {
-                shootAll(folder, survey, theme, size, language);
+            for (const QSize& size : {QSize(1280, 800), QSize(1920, 1080)}) {
+                const QString suffix = suffixOf(theme, size, language);
+                if (suffix.contains(only)) shootAll(folder, survey, theme, size, suffix);
             }
         }
     }

@@ -130,6 +130,8 @@ class TestTerrainView : public QObject {
     void layersChangeThePicture();
     void hiddenRunIsNotDrawn();
     void stretchIsDrawnOnItsRun();
+    void editsAndEdgesLieOnTheSurface();
+    void changeOfHeightIsALayer();
     void exaggerationIsStated();
     void newResultsKeepTheView();
     void openGlDrawsTheSamePicture();
@@ -137,6 +139,7 @@ class TestTerrainView : public QObject {
 
   private:
     struct Shown {
+        std::unique_ptr<ViewState> state = std::make_unique<ViewState>();
         std::unique_ptr<Selection> selection = std::make_unique<Selection>();
         std::unique_ptr<TerrainView> view;
     };
@@ -153,7 +156,7 @@ void TestTerrainView::initTestCase() {
 
 TestTerrainView::Shown TestTerrainView::shownView(TerrainRenderer renderer) const {
     Shown shown;
-    shown.view = std::make_unique<TerrainView>(*shown.selection, renderer);
+    shown.view = std::make_unique<TerrainView>(*shown.state, *shown.selection, renderer);
     shown.view->resize(900, 640);
     QSignalSpy ready(shown.view.get(), &TerrainView::surfaceShown);
     shown.view->show(sample_.survey, sample_.map, sample_.products);
@@ -415,7 +418,7 @@ void TestTerrainView::pictureIsTheSameOnAnyNumberOfThreads() {
     TerrainFrame frame = frameOver(scene, ViewFrom::Oblique);
     frame.contour_interval_m = 0.5;
     frame.overlay = std::make_shared<const SceneOverlay>(
-        sceneOverlay(*scene, MapScene{sample_.map, products}, {}, {}, QPalette()));
+        sceneOverlay(*scene, MapScene{sample_.map, products}, {}, QPalette()));
     QThreadPool* pool = QThreadPool::globalInstance();
     const int threads = pool->maxThreadCount();
     pool->setMaxThreadCount(1);
@@ -449,8 +452,9 @@ void TestTerrainView::contoursLieAtTheirHeights() {
 }
 
 void TestTerrainView::emptyViewSaysWhatToDo() {
+    ViewState state;
     Selection selection;
-    TerrainView view(selection);
+    TerrainView view(state, selection);
     view.resize(500, 400);
     view.show();
     const QImage nothing = view.grab().toImage();
@@ -598,12 +602,12 @@ void TestTerrainView::keysTurnZoomAndReset() {
 void TestTerrainView::layersChangeThePicture() {
     const Shown shown = shownView(TerrainRenderer::Software);
     TerrainView& view = *shown.view;
-    view.setTracksShown(false);
+    shown.state->setShown(&ViewChoice::tracks, false);
     std::vector<QImage> seen;
     for (const RasterLayer layer : {RasterLayer::Height, RasterLayer::Uncertainty, RasterLayer::Density,
                                     RasterLayer::Source, RasterLayer::None}) {
         QSignalSpy ready(&view, &TerrainView::surfaceShown);
-        view.setLayer(layer);
+        shown.state->setLayer(layer);
         if (view.building()) QVERIFY(ready.wait(10'000));
         const QImage picture = view.canvas()->picture();
         for (const QImage& other : seen) QVERIFY(picture != other);
@@ -620,19 +624,21 @@ void TestTerrainView::hiddenRunIsNotDrawn() {
         return n;
     };
     const std::size_t all = vertices();
-    view.setRunVisible(QString::fromStdString(sample_.survey->runs.back().id), false);
+    shown.state->setRunVisible(QString::fromStdString(sample_.survey->runs.back().id), false);
     const std::size_t fewer = vertices();
     QVERIFY(fewer > 0 && fewer < all);
-    view.setTracksShown(false);
+    shown.state->setShown(&ViewChoice::tracks, false);
+    shown.state->setShown(&ViewChoice::edges, false);
     QCOMPARE(vertices(), std::size_t{0});
-    view.setPointsShown(true);
+    shown.state->setShown(&ViewChoice::points, true);
     QVERIFY(!view.frame().overlay->dots.empty());
 }
 
 void TestTerrainView::stretchIsDrawnOnItsRun() {
     const Shown shown = shownView();
     TerrainView& view = *shown.view;
-    view.setTracksShown(false);
+    shown.state->setShown(&ViewChoice::tracks, false);
+    shown.state->setShown(&ViewChoice::edges, false);
     const MapTrack& track = sample_.map->tracks.back();
     const double from_s = track.time_s[track.time_s.size() / 3], to_s = track.time_s[track.time_s.size() / 2];
     shown.selection->select({QString::fromStdString(track.run_id), from_s, to_s});
@@ -653,6 +659,76 @@ void TestTerrainView::stretchIsDrawnOnItsRun() {
     QVERIFY(drawn > 10);
     shown.selection->clear();
     for (const SceneLine& line : view.frame().overlay->lines) QVERIFY(!line.on_ground);
+}
+
+void TestTerrainView::editsAndEdgesLieOnTheSurface() {
+    const Shown shown = shownView();
+    TerrainView& view = *shown.view;
+    shown.state->setShown(&ViewChoice::tracks, false);
+    shown.state->setShown(&ViewChoice::edges, false);
+    const auto linesOf = [&](QRgb colour) {
+        std::size_t n = 0;
+        for (const SceneLine& line : view.frame().overlay->lines) {
+            if (!line.on_ground || line.colours.front() != colour) continue;
+            ++n;
+            for (const Eigen::Vector3f& at : line.at_m) {
+                const Eigen::Vector3d place = view.frame().scene->toMap(at.cast<double>(), 1.0);
+                const auto height = view.frame().scene->heightAt(place.x(), place.y());
+                if (!height || std::abs(*height - place.z()) > 1e-3) return std::size_t{0};
+            }
+        }
+        return n;
+    };
+    const MapTrack& track = sample_.map->tracks.back();
+    const Eigen::Vector3d middle = view.frame().scene->origin_map_m();
+    SurveyEdits edits;
+    edits.stretches.push_back(
+        {track.run_id, track.time_s[track.time_s.size() / 3], track.time_s[track.time_s.size() / 2], {}});
+    edits.lines.push_back(
+        {{middle - Eigen::Vector3d(3, 2, 0), middle + Eigen::Vector3d(3, 2, 0)}, BreaklineKind::Hard, {}});
+    shown.state->setEdits(edits);
+    QVERIFY(linesOf(kExcludedInk.rgb()) > 0);
+    QVERIFY(linesOf(lineColour(BreaklineKind::Hard).rgb()) > 0);
+    shown.state->setEdits({});
+    QCOMPARE(linesOf(kExcludedInk.rgb()), std::size_t{0});
+    QCOMPARE(linesOf(lineColour(BreaklineKind::Hard).rgb()), std::size_t{0});
+    shown.state->setShown(&ViewChoice::edges, true);
+    QCOMPARE(linesOf(kEdgeInk.rgb()) > 0, !sample_.products->terrace_edges.empty());
+}
+
+void TestTerrainView::changeOfHeightIsALayer() {
+    auto earlier = *sample_.products;
+    for (float& h : earlier.dem.heights_m) h -= 5.0F;
+    const auto change = changeSince(*sample_.products, earlier, "before", {});
+    QVERIFY(change.has_value());
+    const RasterPicture picture = rasterPicture(*sample_.products, RasterLayer::Change, &*change);
+    QVERIFY(!picture.levels.empty());
+    QVERIFY(std::abs(picture.legend.high - 5.0) < 1e-3);
+    QCOMPARE(picture.legend.low, -picture.legend.high);
+    QVERIFY(picture.legend.notes.front().contains("before"));
+    // All rose as far as the ramp reaches.
+    const QColor risen = picture.legend.ramp.back();
+    for (std::size_t i = 0; i < sample_.products->dem.geometry.size(); ++i) {
+        const auto columns = sample_.products->dem.geometry.columns;
+        const QColor c =
+            picture.levels.front().pixelColor(static_cast<int>(i % columns), static_cast<int>(i / columns));
+        QCOMPARE(c.alpha() > 0, !std::isnan(sample_.products->dem.heights_m[i]));
+        if (c.alpha() > 0)
+            QVERIFY(std::abs(c.red() - risen.red()) <= 1 && std::abs(c.blue() - risen.blue()) <= 1);
+    }
+    // Of other results it shows nothing.
+    auto other = *sample_.products;
+    other.dem.geometry.west_m += other.dem.geometry.cell_m;
+    QVERIFY(rasterPicture(other, RasterLayer::Change, &*change).levels.empty());
+    const Shown shown = shownView(TerrainRenderer::Software);
+    const QImage heights = shown.view->canvas()->picture();
+    QSignalSpy ready(shown.view.get(), &TerrainView::surfaceShown);
+    shown.state->setChange(std::make_shared<const HeightChange>(*change));
+    QCOMPARE(shown.state->now().layer, RasterLayer::Change);
+    QVERIFY(ready.wait(10'000));
+    QVERIFY(shown.view->canvas()->picture() != heights);
+    shown.state->setChange(nullptr);
+    QCOMPARE(shown.state->now().layer, RasterLayer::Height);
 }
 
 void TestTerrainView::exaggerationIsStated() {
@@ -718,9 +794,10 @@ void TestTerrainView::pictures() {
     const auto sample = test::processedSample("mango_orchard");
     for (const Theme theme : {Theme::Light, Theme::Dark}) {
         applyTheme(theme);
+        ViewState state;
         Selection selection;
         const bool opengl = openGl() != OpenGlKind::None;
-        TerrainView view(selection, opengl ? TerrainRenderer::OpenGl : TerrainRenderer::Software);
+        TerrainView view(state, selection, opengl ? TerrainRenderer::OpenGl : TerrainRenderer::Software);
         view.resize(1280, 800);
         view.show(sample.survey, sample.map, sample.products);
         QSignalSpy shown(&view, &TerrainView::surfaceShown);
@@ -741,14 +818,14 @@ void TestTerrainView::pictures() {
                           log.time_s[log.size() / 2]});
         save("picked");
         view.viewFrom(ViewFrom::Above);
-        view.setLayer(RasterLayer::Uncertainty);
-        view.setColouring(TrackColouring::SigmaHeight);
+        state.setLayer(RasterLayer::Uncertainty);
+        state.setColouring(TrackColouring::SigmaHeight);
         save("above");
         view.viewFrom(ViewFrom::South);
-        view.setLayer(RasterLayer::Source);
-        view.setPointsShown(true);
+        state.setLayer(RasterLayer::Source);
+        state.setShown(&ViewChoice::points, true);
         save("south");
-        view.setLayer(RasterLayer::Height);
+        state.setLayer(RasterLayer::Height);
         view.resetView();
         for (int i = 0; i < 6; ++i) view.zoomBy(1.25);
         save("near");
