@@ -139,7 +139,8 @@ void doubtStretches(std::span<const Eigen::Vector2d> jump_m, std::size_t from, s
             const auto nearest =
                 std::min_element(levels.begin(), levels.end(),
                                  [&](const Level& a, const Level& b) { return away(a) < away(b); });
-            if (away(*nearest) <= kOpposite * jump_m[i].norm()) {
+            const double left_m = std::max(jump_m[i].norm(), (nearest->off_m - levels[level].off_m).norm());
+            if (away(*nearest) <= kOpposite * left_m) {
                 level = static_cast<std::size_t>(nearest - levels.begin());
             } else {
                 level = levels.size();

@@ -58,7 +58,7 @@ TEST(GnssJumps, TheShorterSideOfASingleJumpIsDoubted) {
 // Otherwise all that follows would be doubted, up to the next jump.
 TEST(GnssJumps, AWayBackMayBeFainterThanTheJump) {
     std::vector<GnssReading> readings = walk(0.001);
-    for (int i = 60; i < 90; ++i) readings[static_cast<std::size_t>(i)].en_m.y() += 0.3 - 0.0028 * (i - 60);
+    for (int i = 60; i < 90; ++i) readings[static_cast<std::size_t>(i)].en_m.y() += 0.3 - 0.004 * (i - 60);
     expectDoubted(readings, 60, 90);
 }
 
