@@ -80,6 +80,16 @@ QPolygonF onScreen(const MapTrack& track, const MapTransform& transform) {
     return line;
 }
 
+/// A long line that crosses itself is outlined as a whole before it is filled, which takes tenths of a
+/// second; pieces of it take hundredths. `pen` has flat caps where it lets the ground through.
+void drawInPieces(QPainter& painter, const QPolygonF& line, const QPen& pen) {
+    constexpr qsizetype kPiece = 48;
+    painter.setPen(pen);
+    for (qsizetype from = 0; from + 1 < line.size(); from += kPiece - 1) {
+        painter.drawPolyline(line.constData() + from, int(std::min(kPiece, line.size() - from)));
+    }
+}
+
 /// Pieces of one track, each in the colour of its end.
 void drawColoured(QPainter& painter, const MapTrack& track, const MapTransform& transform, double width_px,
                   const TrackInk& colourAt) {
@@ -102,8 +112,7 @@ void drawPart(QPainter& painter, const MapTrack& track, double from_s, double to
         if (track.time_s[i] < from_s || track.time_s[i] > to_s) continue;
         line << transform.toScreen({track.map_m[i].x(), track.map_m[i].y()});
     }
-    painter.setPen(pen);
-    painter.drawPolyline(line);
+    drawInPieces(painter, line, pen);
 }
 
 /// Text with an edge that sets it off from any ground.
@@ -298,12 +307,13 @@ void drawTracks(QPainter& painter, const MapScene& scene, const MapTransform& tr
         const QString id = text(track.run_id);
         if (scene.shown.hidden_runs.contains(id)) continue;
         const double width_px = scene.highlighted == id ? 4.0 : 1.8;
-        painter.setPen(
-            QPen(QColor(255, 255, 255, 150), width_px + 1.6, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-        painter.drawPolyline(onScreen(track, transform));
+        const QPolygonF line = onScreen(track, transform);
+        drawInPieces(
+            painter, line,
+            QPen(QColor(255, 255, 255, 150), width_px + 1.6, Qt::SolidLine, Qt::FlatCap, Qt::RoundJoin));
         if (scene.shown.colouring == TrackColouring::Run) {
-            painter.setPen(QPen(runColour(t), width_px, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-            painter.drawPolyline(onScreen(track, transform));
+            drawInPieces(painter, line,
+                         QPen(runColour(t), width_px, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
         } else {
             drawColoured(painter, track, transform, width_px + 0.7, trackInk(scene, t));
         }
@@ -322,7 +332,7 @@ void drawTracks(QPainter& painter, const MapScene& scene, const MapTransform& tr
             QColor glow = accentColour();
             glow.setAlpha(150);
             drawPart(painter, track, scene.stretch->from_s, scene.stretch->to_s,
-                     QPen(glow, 10.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin), transform);
+                     QPen(glow, 10.0, Qt::SolidLine, Qt::FlatCap, Qt::RoundJoin), transform);
         }
     }
 }
