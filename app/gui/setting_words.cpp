@@ -174,6 +174,7 @@ namespace {
     QT_TRANSLATE_NOOP("Setting", "drift adapt memory"),
     QT_TRANSLATE_NOOP("Setting", "drift least factor"),
     QT_TRANSLATE_NOOP("Setting", "drift greatest factor"),
+    QT_TRANSLATE_NOOP("Setting", "joint preview"),
     QT_TRANSLATE_NOOP("Setting", "joint knot"),
     QT_TRANSLATE_NOOP("Setting", "joint heading knot"),
     QT_TRANSLATE_NOOP("Setting", "joint gnss knot"),

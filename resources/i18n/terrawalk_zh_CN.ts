@@ -1869,6 +1869,10 @@
             <translation>漂移滤波 最大因子</translation>
         </message>
         <message>
+            <source>joint preview</source>
+            <translation>整体平差 快速预览</translation>
+        </message>
+        <message>
             <source>joint knot</source>
             <translation>整体平差 节点间隔</translation>
         </message>
