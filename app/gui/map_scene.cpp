@@ -83,7 +83,7 @@ QPolygonF onScreen(const MapTrack& track, const MapTransform& transform) {
 /// A long line that crosses itself is outlined as a whole before it is filled, which takes tenths of a
 /// second; pieces of it take hundredths. `pen` has flat caps where it lets the ground through.
 void drawInPieces(QPainter& painter, const QPolygonF& line, const QPen& pen) {
-    constexpr qsizetype kPiece = 48;
+    constexpr qsizetype kPiece = 8;
     painter.setPen(pen);
     for (qsizetype from = 0; from + 1 < line.size(); from += kPiece - 1) {
         painter.drawPolyline(line.constData() + from, int(std::min(kPiece, line.size() - from)));
@@ -115,14 +115,16 @@ void drawPart(QPainter& painter, const MapTrack& track, double from_s, double to
     drawInPieces(painter, line, pen);
 }
 
-/// Text with an edge that sets it off from any ground.
+/// Text with an edge that sets it off from any ground: glyphs drawn about it are kept by the painter, an
+/// outline would be made anew for each label.
 void drawLabel(QPainter& painter, QPointF at, const QString& label, const QPalette& palette) {
-    QPainterPath path;
-    path.addText(at, painter.font(), label);
-    QColor halo = palette.color(QPalette::Base);
-    halo.setAlpha(220);
-    painter.strokePath(path, QPen(halo, kHalo_px, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-    painter.fillPath(path, palette.color(QPalette::Text));
+    constexpr double r = kHalo_px / 2.0, d = 0.7 * r;
+    constexpr std::array<QPointF, 8> kAround{QPointF(r, 0), QPointF(-r, 0), QPointF(0, r),  QPointF(0, -r),
+                                             QPointF(d, d), QPointF(d, -d), QPointF(-d, d), QPointF(-d, -d)};
+    painter.setPen(palette.color(QPalette::Base));
+    for (const QPointF& off : kAround) painter.drawText(at + off, label);
+    painter.setPen(palette.color(QPalette::Text));
+    painter.drawText(at, label);
 }
 
 void drawVector(QPainter& painter, QPointF from, QPointF to) {
@@ -310,10 +312,10 @@ void drawTracks(QPainter& painter, const MapScene& scene, const MapTransform& tr
         const QPolygonF line = onScreen(track, transform);
         drawInPieces(
             painter, line,
-            QPen(QColor(255, 255, 255, 150), width_px + 1.6, Qt::SolidLine, Qt::FlatCap, Qt::RoundJoin));
+            QPen(QColor(255, 255, 255, 150), width_px + 1.6, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin));
         if (scene.shown.colouring == TrackColouring::Run) {
             drawInPieces(painter, line,
-                         QPen(runColour(t), width_px, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+                         QPen(runColour(t), width_px, Qt::SolidLine, Qt::SquareCap, Qt::BevelJoin));
         } else {
             drawColoured(painter, track, transform, width_px + 0.7, trackInk(scene, t));
         }
