@@ -62,6 +62,8 @@ PlotsView::PlotsView(Selection& selection, QWidget* parent) : QWidget(parent), s
     title_ = new QLabel;
     title_->setObjectName("heading");
     title_->setMinimumHeight(4 * kGrid_px);
+    // A long title gives way: it must not make the window wider than the screen.
+    title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     runs_ = new QComboBox;
     runs_->setObjectName("plotRun");
     runs_->setAccessibleName(tr("Run"));
@@ -102,8 +104,7 @@ PlotsView::PlotsView(Selection& selection, QWidget* parent) : QWidget(parent), s
     auto* head = new QHBoxLayout;
     head->setContentsMargins(2 * kGrid_px, kGrid_px, 2 * kGrid_px, kGrid_px);
     head->setSpacing(kGrid_px);
-    head->addWidget(title_);
-    head->addStretch();
+    head->addWidget(title_, 1);
     head->addWidget(runs_);
     head->addSpacing(kGrid_px);
     head->addWidget(sensors_);
