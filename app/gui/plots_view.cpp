@@ -101,15 +101,19 @@ PlotsView::PlotsView(Selection& selection, QWidget* parent) : QWidget(parent), s
     note_->setObjectName("quiet");
     note_->setWordWrap(true);
 
-    auto* head = new QHBoxLayout;
+    auto* choices = new QHBoxLayout;
+    choices->setSpacing(kGrid_px);
+    choices->addWidget(runs_);
+    choices->addWidget(sensors_);
+    choices->addWidget(exclude_);
+    choices->addWidget(open_);
+    choices->addStretch();
+    // One below the other: side by side they would make the window wider than a small screen.
+    auto* head = new QVBoxLayout;
     head->setContentsMargins(2 * kGrid_px, kGrid_px, 2 * kGrid_px, kGrid_px);
     head->setSpacing(kGrid_px);
-    head->addWidget(title_, 1);
-    head->addWidget(runs_);
-    head->addSpacing(kGrid_px);
-    head->addWidget(sensors_);
-    head->addWidget(exclude_);
-    head->addWidget(open_);
+    head->addWidget(title_);
+    head->addLayout(choices);
     auto* foot = new QVBoxLayout;
     foot->setContentsMargins(2 * kGrid_px, 0, 2 * kGrid_px, kGrid_px);
     foot->setSpacing(kGrid_px / 2);
