@@ -6,14 +6,11 @@
 
 #include "fusion/adjustment_groups.hpp"
 #include "fusion/random_numbers.hpp"
+#include "fusion/squared.hpp"
 
 namespace terrawalk {
 
 namespace {
-
-double squared(double x) {
-    return x * x;
-}
 
 // Of m passes over the same ground only so many differences are independent as there are passes, while
 // pairs grow with their square: where more than this meet, they share their weight.

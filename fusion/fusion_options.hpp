@@ -219,7 +219,7 @@ struct DriftFilterOptions {
 
 /// The joint adjustment of all runs.
 struct JointOptions {
-    double knot_s = 1.0;   ///< between the knots of the track's correction
+    double knot_s = 1.0;  ///< between the knots of the track's correction
     double heading_knot_s = 1.0;
     double gnss_knot_s = 1.0;
     double barometer_knot_s = 10.0;
@@ -227,7 +227,7 @@ struct JointOptions {
     int rounds = 5;                     ///< Gauss-Newton rounds with crossovers
     bool use_crossovers = true;
     bool adapt_noise = true;  ///< noise factors by variance components
-    bool preview = false;  ///< crossovers in a quick second stage instead; see correctByCrossovers()
+    bool preview = false;     ///< crossovers in a quick second stage instead; see correctByCrossovers()
     CrossoverOptions crossovers;
     /// Sigma of a misfit: pair_sigma_m + g / (g + pair_even_slope) (pair_uneven_m + pair_apart_per_m d^2),
     /// with slope g and distance of the passes d, errors of the tracks counted in.

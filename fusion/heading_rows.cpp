@@ -5,16 +5,9 @@
 #include "fusion/adjustment_groups.hpp"
 #include "fusion/knot_intervals.hpp"
 #include "fusion/sensor_rows.hpp"
+#include "fusion/squared.hpp"
 
 namespace terrawalk {
-
-namespace {
-
-double squared(double x) {
-    return x * x;
-}
-
-}  // namespace
 
 void SensorRows::addFlow(const RunModel& run) {
     if (!run.has_heading) return;
@@ -140,12 +133,13 @@ void SensorRows::addCompass(const RunModel& run) {
     std::array<double, 2> turn{}, psi{};
     double n = 0.0, sine = 0.0, cosine = 0.0, residual = 0.0;
     std::size_t psi_first = 0;
+    std::size_t turn_interval = 0;
     for (std::size_t i = 0; i <= run.size(); ++i) {
         const std::size_t interval = i == run.size() ? run.turn.knots() : run.turn_at[i].knot;
-        if (n > 0.0 && interval != turn_interval_) {
+        if (n > 0.0 && interval != turn_interval) {
             row_.clear();
             for (std::size_t j = 0; j < 2; ++j) {
-                if (turn[j] != 0.0) row_.add(run.turn.unknown(turn_interval_ + j), -turn[j] / n);
+                if (turn[j] != 0.0) row_.add(run.turn.unknown(turn_interval + j), -turn[j] / n);
                 if (psi[j] != 0.0) row_.add(run.psi.unknown(psi_first + j), psi[j] / n);
             }
             row_.add(run.iron.sin.unknown, sine / n);
@@ -157,7 +151,7 @@ void SensorRows::addCompass(const RunModel& run) {
             n = sine = cosine = residual = 0.0;
         }
         if (i == run.size()) break;
-        turn_interval_ = interval;
+        turn_interval = interval;
         if (!present(run.log->value(Channel::Heading, i))) continue;
         if (n == 0.0) psi_first = run.psi_at[i].knot;
         const double yaw = run.yaw_rad[i];

@@ -4,14 +4,11 @@
 #include "fusion/adjustment_groups.hpp"
 #include "fusion/barometer.hpp"
 #include "fusion/sensor_rows.hpp"
+#include "fusion/squared.hpp"
 
 namespace terrawalk {
 
 namespace {
-
-double squared(double x) {
-    return x * x;
-}
 
 constexpr double kLooseZero_m = 10.0;
 

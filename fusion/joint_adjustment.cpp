@@ -10,14 +10,11 @@
 #include "fusion/run_model.hpp"
 #include "fusion/sensor_rows.hpp"
 #include "fusion/sparse_least_squares.hpp"
+#include "fusion/squared.hpp"
 
 namespace terrawalk {
 
 namespace {
-
-double squared(double x) {
-    return x * x;
-}
 
 class JointAdjuster {
   public:

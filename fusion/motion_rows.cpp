@@ -5,14 +5,11 @@
 #include "fusion/adjustment_groups.hpp"
 #include "fusion/position_bends.hpp"
 #include "fusion/sensor_rows.hpp"
+#include "fusion/squared.hpp"
 
 namespace terrawalk {
 
 namespace {
-
-double squared(double x) {
-    return x * x;
-}
 
 constexpr double kBlindBend_m = 0.5;            // of a sigma that tells nothing
 constexpr double kYawDoubt_rad = radians(0.5);  // by which the yaw errs within a bend

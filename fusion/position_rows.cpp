@@ -5,16 +5,9 @@
 #include "fusion/adjustment_groups.hpp"
 #include "fusion/knot_intervals.hpp"
 #include "fusion/sensor_rows.hpp"
+#include "fusion/squared.hpp"
 
 namespace terrawalk {
-
-namespace {
-
-double squared(double x) {
-    return x * x;
-}
-
-}  // namespace
 
 // Weak where ties or GNSS tell more: it only keeps the system regular.
 void SensorRows::addStart(const RunModel& run) {

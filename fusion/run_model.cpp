@@ -4,13 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "fusion/squared.hpp"
+
 namespace terrawalk {
 
 namespace {
-
-double squared(double x) {
-    return x * x;
-}
 
 constexpr double kLongest_s = 0.3;  // half of the longest time that an epoch stands for
 

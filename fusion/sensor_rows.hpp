@@ -55,7 +55,6 @@ class SensorRows {
     SparseLeastSquares& system_;
     RowTerms row_;
     std::vector<double> scratch_;
-    std::size_t turn_interval_ = 0;
 };
 
 }  // namespace terrawalk

@@ -1,8 +1,8 @@
 #include "mapping/point_cleaning.hpp"
 
 #include <fmt/format.h>
-// Its templates are compiled here: looking up the symbols of libpcl_segmentation would take longer than all the
-// rest of starting the program.
+// Its templates are compiled here: looking up the symbols of libpcl_segmentation would take longer than all
+// the rest of starting the program.
 #define PCL_NO_PRECOMPILE
 #include <pcl/kdtree/kdtree_flann.h>
 #include <pcl/point_types.h>
