@@ -94,7 +94,7 @@ TEST(Kill, AtAnyMomentTheOutputIsTheOldOrTheNewOne) {
     const auto fine = readTree(here / "out");
     std::mt19937 random(7);
     std::size_t killed = 0;
-    for (int round = 0; round < 16; ++round) {
+    for (int round = 0; round < 8; ++round) {
         const double share = 0.4 + 0.7 * static_cast<double>(random() % 1000) / 1000.0;
         const auto outcome = make(round % 2 == 0 ? "0.5" : "0.25", [&](pid_t program) {
             std::this_thread::sleep_for(std::chrono::duration<double>(share * timed.seconds));
@@ -104,7 +104,7 @@ TEST(Kill, AtAnyMomentTheOutputIsTheOldOrTheNewOne) {
         const auto found = readTree(here / "out");
         ASSERT_TRUE(found == coarse || found == fine) << "round " << round;
     }
-    EXPECT_GE(killed, 4u);
+    EXPECT_GE(killed, 2u);
     // The next run removes what the killed ones left beside the output.
     ASSERT_EQ(make("0.5", {}).exit_code, 0);
     std::size_t entries = 0;
