@@ -45,7 +45,7 @@ struct LasHeader {
 
 class LasReader {
   public:
-    LasReader(const std::filesystem::path& file, InputFile input) : file_(file), input_(std::move(input)) {}
+    LasReader(const std::filesystem::path& file, ReadableFile input) : file_(file), input_(std::move(input)) {}
 
     Result<ScatteredPoints> read(const std::vector<int>& classes, Progress& progress,
                                  const std::stop_token& stop) {
@@ -242,7 +242,7 @@ class LasReader {
     }
 
     std::filesystem::path file_;
-    InputFile input_;
+    ReadableFile input_;
     std::size_t at_ = 0;
     LasHeader header_;
     ScatteredPoints points_;
@@ -254,7 +254,7 @@ class LasReader {
 
 Result<ScatteredPoints> readLas(const std::filesystem::path& file, const std::vector<int>& classes,
                                 Progress& progress, const std::stop_token& stop) {
-    auto input = InputFile::open(file);
+    auto input = ReadableFile::open(file);
     if (!input) return tl::unexpected(input.error());
     return LasReader(file, std::move(*input)).read(classes, progress, stop);
 }

@@ -185,7 +185,7 @@ class PointTableParser {
 
 Result<ScatteredPoints> readPointTable(const std::filesystem::path& file, Progress& progress,
                                        const std::stop_token& stop) {
-    auto input = InputFile::open(file);
+    auto input = ReadableFile::open(file);
     if (!input) return tl::unexpected(input.error());
     if (input->size() == 0) return badData("the file is empty", file);
     const auto source = [&input](char* buffer, std::size_t capacity) {

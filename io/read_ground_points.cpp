@@ -114,7 +114,7 @@ class GroundPointParser {
 
 Result<GroundPointTable> readGroundPointsCsv(const std::filesystem::path& file, Progress& progress,
                                              std::stop_token stop) {
-    auto input = InputFile::open(file);
+    auto input = ReadableFile::open(file);
     if (!input) return tl::unexpected(input.error());
     const auto source = [&input](char* buffer, std::size_t capacity) {
         return input->read(buffer, capacity);

@@ -38,8 +38,8 @@ bool endsLine(const char* at, const char* end) {
 
 }  // namespace
 
-Result<InputFile> InputFile::open(const std::filesystem::path& file) {
-    InputFile input;
+Result<ReadableFile> ReadableFile::open(const std::filesystem::path& file) {
+    ReadableFile input;
     input.file_ = file;
     // O_NONBLOCK: a named pipe without a writer would wait for ever.
     input.handle_ = FileHandle(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
@@ -54,7 +54,7 @@ Result<InputFile> InputFile::open(const std::filesystem::path& file) {
     return input;
 }
 
-Result<std::size_t> InputFile::read(char* buffer, std::size_t capacity) {
+Result<std::size_t> ReadableFile::read(char* buffer, std::size_t capacity) {
     std::size_t filled = 0;
     while (filled < capacity) {
         const ssize_t got = ::read(handle_.get(), buffer + filled, capacity - filled);
@@ -67,7 +67,7 @@ Result<std::size_t> InputFile::read(char* buffer, std::size_t capacity) {
 }
 
 Result<std::string> readWholeFile(const std::filesystem::path& file, std::size_t most_bytes) {
-    auto input = InputFile::open(file);
+    auto input = ReadableFile::open(file);
     if (!input) return tl::unexpected(input.error());
     const auto tooLarge = [&] {
         return badData(fmt::format("the file is larger than {} MB", most_bytes >> 20U), file, 0,

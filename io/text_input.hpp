@@ -20,9 +20,9 @@ namespace terrawalk {
 
 /// A regular file, open for reading. Errors: BadData when there is no such file or when it is a folder or a
 /// device, System when the machine refuses to open or to read it.
-class InputFile {
+class ReadableFile {
   public:
-    [[nodiscard]] static Result<InputFile> open(const std::filesystem::path& file);
+    [[nodiscard]] static Result<ReadableFile> open(const std::filesystem::path& file);
     [[nodiscard]] std::size_t size() const { return size_; }
     /// Fills the buffer as far as the file reaches; returns the number of bytes.
     [[nodiscard]] Result<std::size_t> read(char* buffer, std::size_t capacity);

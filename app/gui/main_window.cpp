@@ -227,13 +227,18 @@ void MainWindow::buildDocks() {
     profile_->setObjectName("profile_plot");
     profile_->setMinimumHeight(160);
     profile_dock_ = addDock(Qt::BottomDockWidgetArea, "dock_profile", tr("Profile"), profile_);
-    auto* message_dock = addDock(Qt::BottomDockWidgetArea, "dock_messages", tr("Messages"), messages_);
+    message_dock_ = addDock(Qt::BottomDockWidgetArea, "dock_messages", tr("Messages"), messages_);
     // Both want the whole width.
-    tabifyDockWidget(message_dock, profile_dock_);
+    tabifyDockWidget(message_dock_, profile_dock_);
     profile_dock_->hide();
+    // A profile needs more height than messages, which get back what they had.
+    connect(profile_dock_->toggleViewAction(), &QAction::toggled, message_dock_, [this](bool shown) {
+        if (!shown && messages_height_px_ > 0)
+            resizeDocks({message_dock_}, {messages_height_px_}, Qt::Vertical);
+    });
     resizeDocks({tree_dock, steps_dock}, {288, 328}, Qt::Horizontal);
     resizeDocks({tree_dock, place_dock}, {340, 340}, Qt::Vertical);
-    resizeDocks({message_dock}, {120}, Qt::Vertical);
+    resizeDocks({message_dock_}, {120}, Qt::Vertical);
     readout_ = new QLabel;
     readout_->setObjectName("readout");
     state_ = new QLabel;
@@ -444,6 +449,8 @@ void MainWindow::buildHelpMenu() {
 }
 
 void MainWindow::connectSession() {
+    fill_timer_.setSingleShot(true);
+    connect(&fill_timer_, &QTimer::timeout, this, &MainWindow::fillNext);
     connect(&session_, &SurveySession::surveyChanged, this, &MainWindow::showSurvey);
     connect(&session_, &SurveySession::productsChanged, this, &MainWindow::showProducts);
     connect(&session_, &SurveySession::tuningChanged, this, [this] { plots_->setTuning(session_.tuning()); });
@@ -555,14 +562,28 @@ void MainWindow::showProducts() {
     }
     session_.viewState().setAvailable(layers);
     map_->show(session_.map(), session_.products());
-    const auto survey = session_.shownSurvey();
-    terrain_->show(survey, session_.map(), session_.products());
-    plots_->show(survey, session_.map(), session_.products());
-    accuracy_->show(session_.products());
-    report_->show(survey, session_.products());
+    fillInTurns({[this] { terrain_->show(session_.shownSurvey(), session_.map(), session_.products()); },
+                 [this] { plots_->show(session_.shownSurvey(), session_.map(), session_.products()); },
+                 [this] { accuracy_->show(session_.products()); },
+                 [this] {
+                     report_->show(session_.shownSurvey(), session_.products());
+                 }});
     place_->clear();
     showTree();
     enableActions();
+}
+
+void MainWindow::fillInTurns(std::deque<std::function<void()>> views) {
+    views_to_fill_ = std::move(views);
+    fill_timer_.start();
+}
+
+void MainWindow::fillNext() {
+    if (views_to_fill_.empty()) return;
+    const auto fill = std::move(views_to_fill_.front());
+    views_to_fill_.pop_front();
+    fill();
+    if (!views_to_fill_.empty()) fill_timer_.start();
 }
 
 void MainWindow::showTree() {
@@ -678,6 +699,7 @@ void MainWindow::showProfile(const QPolygonF& line_m) {
         return;
     }
     profile_->show(profilePlot(*products, *session_.map(), line_m));
+    if (!profile_dock_->isVisible()) messages_height_px_ = message_dock_->height();
     profile_dock_->show();
     profile_dock_->raise();
 }

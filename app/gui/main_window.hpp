@@ -1,6 +1,8 @@
 #pragma once
 
 #include <QMainWindow>
+#include <QTimer>
+#include <deque>
 #include <functional>
 
 #include "app/gui/map_view.hpp"
@@ -39,6 +41,8 @@ class MainWindow : public QMainWindow {
 
     [[nodiscard]] SurveySession& session() { return session_; }
     [[nodiscard]] MapView& map();
+    /// Whether views still wait for their turn to show a result.
+    [[nodiscard]] bool filling() const { return !views_to_fill_.empty(); }
     void open(const QString& path, bool then_process = false);
     /// Asks what survey the files make; see NewSurveyDialog.
     void newSurvey(const QStringList& files = {});
@@ -86,6 +90,9 @@ class MainWindow : public QMainWindow {
     void showPage(QWidget* page);
     void showSurvey();
     void showProducts();
+    /// Each in a turn of its own: together they would leave the window deaf for a tenth of a second.
+    void fillInTurns(std::deque<std::function<void()>> views);
+    void fillNext();
     void followSelection();
     void showTitle();
     void showTree();
@@ -114,6 +121,8 @@ class MainWindow : public QMainWindow {
     PlotsView* plots_ = nullptr;
     PlotCanvas* profile_ = nullptr;
     QDockWidget* profile_dock_ = nullptr;
+    QDockWidget* message_dock_ = nullptr;
+    int messages_height_px_ = 0;  ///< before a profile was shown beside them
     AccuracyPanel* accuracy_ = nullptr;
     ReportView* report_ = nullptr;
     PlacePanel* place_ = nullptr;
@@ -125,6 +134,8 @@ class MainWindow : public QMainWindow {
     QList<QDockWidget*> docks_;
     QByteArray layout_;  ///< of the docks, while the start page hides them
     std::map<QString, QAction*> actions_;
+    std::deque<std::function<void()>> views_to_fill_;
+    QTimer fill_timer_;
 };
 
 }  // namespace terrawalk::gui

@@ -320,6 +320,12 @@ void drawTracks(QPainter& painter, const MapScene& scene, const MapTransform& tr
             drawColoured(painter, track, transform, width_px + 0.7, trackInk(scene, t));
         }
     }
+}
+
+void drawStretches(QPainter& painter, const MapScene& scene, const MapTransform& transform) {
+    if (!scene.survey) return;
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setBrush(Qt::NoBrush);
     for (const MapTrack& track : scene.survey->tracks) {
         const QString id = text(track.run_id);
         if (scene.shown.hidden_runs.contains(id)) continue;

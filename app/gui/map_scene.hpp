@@ -80,6 +80,8 @@ inline const QColor kExcludedInk(110, 110, 110);
 
 void drawPoints(QPainter& painter, const MapScene& scene, const MapTransform& transform);
 void drawTracks(QPainter& painter, const MapScene& scene, const MapTransform& transform);
+/// Excluded stretches of tracks, and the selected one.
+void drawStretches(QPainter& painter, const MapScene& scene, const MapTransform& transform);
 inline const QColor kMarkInk(20, 24, 28);
 /// Square, triangle or dot: zero mark, control or check.
 void drawMarkSymbol(QPainter& painter, QPointF at, const ControlMark& mark, bool highlighted,

@@ -44,6 +44,15 @@ bool sameView(const MapTransform& a, const MapTransform& b) {
     return a.centre_m == b.centre_m && a.pixels_per_m == b.pixels_per_m && a.size_px == b.size_px;
 }
 
+/// Whether contours, edges, points and tracks look the same.
+bool sameLines(const MapScene& a, const MapScene& b) {
+    ViewChoice shown = a.shown;
+    shown.layer = b.shown.layer;
+    shown.change = b.shown.change;
+    return a.survey == b.survey && a.products == b.products && a.contours == b.contours &&
+           a.highlighted == b.highlighted && shown == b.shown;
+}
+
 double contourInterval(const Products& products) {
     const double range_m = products.report.surface.highest_m - products.report.surface.lowest_m;
     return range_m > 0.0 ? roundBelow(std::max(range_m / kContours, 0.05)) : 1.0;
@@ -72,7 +81,7 @@ MapView::MapView(ViewState& state, Selection& selection, QWidget* parent)
     });
     connect(&line_watcher_, &QFutureWatcherBase::finished, this, [this] {
         if (line_watcher_.future().resultCount() == 0) return;
-        contour_picture_ = line_watcher_.result();
+        lines_ = line_watcher_.result();
         update();
     });
     connect(&state_, &ViewState::changed, this, &MapView::followState);
@@ -90,10 +99,17 @@ void MapView::show(std::shared_ptr<const SurveyMap> survey, std::shared_ptr<cons
     scene_.survey = std::move(survey);
     scene_.products = std::move(products);
     scene_.place_m.reset();
-    if (fitted_ || !before.intersects(scene_.extent_m())) fit();
+    const bool elsewhere = !before.intersects(scene_.extent_m());
+    if (elsewhere) lines_ = {};
+    if (fitted_ || elsewhere) fit();
     colourLayer();
     makeContours();
     update();
+}
+
+bool MapView::preparing() const {
+    return layer_watcher_.isRunning() || contour_watcher_.isRunning() || line_watcher_.isRunning() ||
+           (isVisible() && scene_.survey && !linesCurrent());
 }
 
 void MapView::colourLayer() {
@@ -177,46 +193,47 @@ void MapView::paintEvent(QPaintEvent*) {
     painter.fillRect(rect(), palette().color(QPalette::Base));
     if (!scene_.survey) return;
     if (scene_.raster) drawRaster(painter, *scene_.raster, transform_);
-    paintContours(painter);
-    drawTerraceEdges(painter, scene_, transform_);
-    drawPoints(painter, scene_, transform_);
-    drawTracks(painter, scene_, transform_);
+    paintLines(painter);
+    drawStretches(painter, scene_, transform_);
     drawMarks(painter, scene_, transform_, palette());
     drawEdits(painter, scene_, transform_, palette());
     drawFurniture(painter, scene_, transform_, palette());
 }
 
-void MapView::paintContours(QPainter& painter) {
-    if (!scene_.contours || !scene_.shown.contours) return;
-    const ContourPicture& last = contour_picture_;
-    if (last.contours == scene_.contours && !last.image.isNull()) {
-        // Until the new one has come, the last picture goes along with the map.
-        const MapTransform& then = last.transform;
-        const QPointF from = transform_.toScreen(then.toMap({0, 0}));
-        const QPointF to = transform_.toScreen(then.toMap({then.size_px.width(), then.size_px.height()}));
-        painter.drawImage(QRectF(from, to), last.image);
-    }
-    const bool current = last.contours == scene_.contours && sameView(last.transform, transform_) &&
-                         last.palette == palette() && last.image.devicePixelRatio() == devicePixelRatioF();
-    if (!current) drawContoursBeside();
+bool MapView::linesCurrent() const {
+    return !lines_.image.isNull() && sameLines(lines_.scene, scene_) &&
+           sameView(lines_.transform, transform_) && lines_.palette == palette() &&
+           lines_.image.devicePixelRatio() == devicePixelRatioF();
 }
 
-void MapView::drawContoursBeside() {
+void MapView::paintLines(QPainter& painter) {
+    if (!lines_.image.isNull()) {
+        // Until the new one has come, the last picture goes along with the map.
+        const MapTransform& then = lines_.transform;
+        const QPointF from = transform_.toScreen(then.toMap({0, 0}));
+        const QPointF to = transform_.toScreen(then.toMap({then.size_px.width(), then.size_px.height()}));
+        painter.drawImage(QRectF(from, to), lines_.image);
+    }
+    if (!linesCurrent()) drawLinesBeside();
+}
+
+void MapView::drawLinesBeside() {
     // One at a time; when it has come, the next paint sees whether another is needed.
     if (line_watcher_.isRunning()) return;
-    MapScene scene;
-    scene.contours = scene_.contours;
-    line_watcher_.setFuture(QtConcurrent::run(
-        [scene, transform = transform_, palette = palette(), font = font(), ratio = devicePixelRatioF()] {
-            QImage image((transform.size_px * ratio).toSize(), QImage::Format_ARGB32_Premultiplied);
-            image.setDevicePixelRatio(ratio);
-            image.fill(Qt::transparent);
-            QPainter painter(&image);
-            painter.setFont(font);
-            drawContours(painter, scene, transform, palette);
-            painter.end();
-            return ContourPicture{scene.contours, transform, palette, image};
-        }));
+    line_watcher_.setFuture(QtConcurrent::run([scene = scene_, transform = transform_, palette = palette(),
+                                               font = font(), ratio = devicePixelRatioF()] {
+        QImage image((transform.size_px * ratio).toSize(), QImage::Format_ARGB32_Premultiplied);
+        image.setDevicePixelRatio(ratio);
+        image.fill(Qt::transparent);
+        QPainter painter(&image);
+        painter.setFont(font);
+        drawContours(painter, scene, transform, palette);
+        drawTerraceEdges(painter, scene, transform);
+        drawPoints(painter, scene, transform);
+        drawTracks(painter, scene, transform);
+        painter.end();
+        return LinePicture{scene, transform, palette, image};
+    }));
 }
 
 void MapView::resizeEvent(QResizeEvent*) {

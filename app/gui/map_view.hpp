@@ -44,10 +44,8 @@ class MapView : public QWidget {
     [[nodiscard]] const MapScene& scene() const { return scene_; }
     [[nodiscard]] const MapTransform& transform() const { return transform_; }
     [[nodiscard]] MapTool tool() const { return tool_; }
-    /// Whether the layer that was asked for is still being coloured, or contours are being made.
-    [[nodiscard]] bool preparing() const {
-        return layer_watcher_.isRunning() || contour_watcher_.isRunning() || line_watcher_.isRunning();
-    }
+    /// Whether a part of the picture is still being made: the layer, contours, or the lines over it.
+    [[nodiscard]] bool preparing() const;
 
   Q_SIGNALS:
     /// What lies under the cursor; no height where there is no surface, nothing at all without a map.
@@ -72,8 +70,9 @@ class MapView : public QWidget {
   private:
     void colourLayer();
     void makeContours();
-    void paintContours(QPainter& painter);
-    void drawContoursBeside();
+    [[nodiscard]] bool linesCurrent() const;
+    void paintLines(QPainter& painter);
+    void drawLinesBeside();
     void followState();
     void followSelection();
     void moveBy(QPointF by_px);
@@ -90,15 +89,16 @@ class MapView : public QWidget {
     MapTool tool_ = MapTool::Pan;
     QFutureWatcher<std::shared_ptr<const RasterPicture>> layer_watcher_;
     QFutureWatcher<std::shared_ptr<const std::vector<Contour>>> contour_watcher_;
-    /// Contours as they lie on the screen: thousands of smooth lines take longer than the window may be deaf.
-    struct ContourPicture {
-        std::shared_ptr<const std::vector<Contour>> contours;
+    /// Contours, edges, points and tracks as they lie on the screen: thousands of smooth lines take longer
+    /// than the window may be deaf.
+    struct LinePicture {
+        MapScene scene;
         MapTransform transform;
         QPalette palette;
         QImage image;
     };
-    ContourPicture contour_picture_;
-    QFutureWatcher<ContourPicture> line_watcher_;
+    LinePicture lines_;
+    QFutureWatcher<LinePicture> line_watcher_;
     std::optional<QPointF> pressed_at_;
     std::optional<QPointF> dragged_from_;
     std::optional<TrackHit> stretch_from_;

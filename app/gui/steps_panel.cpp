@@ -235,7 +235,7 @@ void StepsPanel::showState() {
         products && !products->report.figures.empty() ? &products->report.figures.front() : nullptr;
     figure_->setText(figure != nullptr ? text(figure->value) : tr("not checked yet"));
     figure_detail_->setText(figure != nullptr
-                                ? reportWords(figure->label) + ". " + reportWords(figure->detail)
+                                ? tr("%1, %2").arg(reportWords(figure->label), reportWords(figure->detail))
                                 : tr("Process the survey to see its errors at the marks."));
     const bool marks = survey && !survey->marks.empty();
     tune_->setEnabled(!busy && marks);

@@ -58,7 +58,7 @@ std::vector<LooseFile> looseFiles(const NewSurveyRequest& request) {
 }
 
 Result<LooseKind> kindOf(const fs::path& file) {
-    auto input = InputFile::open(file);
+    auto input = ReadableFile::open(file);
     if (!input) return tl::unexpected(input.error());
     if (input->size() == 0) return badData("the file is empty", file);
     std::string head(kHeadBytes, '\0');

@@ -2028,6 +2028,10 @@
             <translation>光流</translation>
         </message>
         <message>
+            <source>Quick preview</source>
+            <translation>快速预览</translation>
+        </message>
+        <message>
             <source>Clean</source>
             <translation>清理</translation>
         </message>
@@ -3462,6 +3466,10 @@
     </context>
     <context>
         <name>terrawalk::gui::StepsPanel</name>
+        <message>
+            <source>%1, %2</source>
+            <translation>%1，%2</translation>
+        </message>
         <message>
             <source>Open a survey…</source>
             <translation>打开测量…</translation>

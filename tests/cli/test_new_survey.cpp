@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tests/cli/cli_support.hpp"
 
@@ -34,6 +37,32 @@ TEST(NewCommand, MakesASurveyThatProcessTakes) {
     EXPECT_EQ(again.exit_code, 2) << "never over a survey that is there";
     EXPECT_THAT(again.err, HasSubstr("survey.json"));
     EXPECT_EQ(terrawalk({"new", (scratch / "walk").string(), "--replace", "-q"}).exit_code, 0);
+}
+
+TEST(NewCommand, AKilledOneLeavesTheOldSurveyOrTheNewOne) {
+    const TemporaryFolder scratch;
+    const fs::path walk = scratch / "walk";
+    fs::copy(quickPlot() / "logs", walk);
+    const auto make = [&](const char* name, const std::function<void(pid_t)>& meanwhile) {
+        return terrawalk({"new", walk.string(), "--replace", "-q", "--name", name}, meanwhile);
+    };
+    ASSERT_EQ(make("one", {}).exit_code, 0);
+    const std::string one = readTree(walk).at("survey.json");
+    const auto timed = make("another", {});
+    ASSERT_EQ(timed.exit_code, 0);
+    const std::string another = readTree(walk).at("survey.json");
+    ASSERT_NE(one, another);
+    std::size_t killed = 0;
+    for (int round = 0; round < 12; ++round) {
+        const auto outcome = make(round % 2 == 0 ? "one" : "another", [&](pid_t program) {
+            std::this_thread::sleep_for(std::chrono::duration<double>(timed.seconds * (0.5 + 0.05 * round)));
+            kill(program, SIGKILL);
+        });
+        killed += outcome.signal == SIGKILL ? 1 : 0;
+        const std::string found = readTree(walk).at("survey.json");
+        EXPECT_TRUE(found == one || found == another) << "round " << round;
+    }
+    EXPECT_GE(killed, 3u);
 }
 
 TEST(NewCommand, SaysWhatIsWrong) {

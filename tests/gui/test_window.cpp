@@ -123,7 +123,7 @@ class WindowTest : public QObject {
     [[nodiscard]] SurveySession& session() const { return desktop_->session(); }
     [[nodiscard]] QAction& action(const char* name) const { return *window_->findChild<QAction*>(name); }
     [[nodiscard]] QString messages() const;
-    [[nodiscard]] bool idle() const { return !session().busy(); }
+    [[nodiscard]] bool idle() const { return !session().busy() && !window_->filling(); }
 
     std::unique_ptr<QTemporaryDir> scratch_;
     QString sample_;  ///< a copy that may be written beside
@@ -216,9 +216,12 @@ void WindowTest::clickTellsTheHeightThere() {
     while (std::isnan(dem.heights_m[cell])) ++cell;
     const Eigen::Vector3d at(dem.geometry.centreX(cell % dem.geometry.columns),
                              dem.geometry.centreY(cell / dem.geometry.columns), 0);
-    QTest::mouseMove(&window_->map(), onScreen(at));
-    const QString shown = window_->findChild<QLabel*>("readout")->text();
-    QVERIFY2(shown.contains("height"), qPrintable(shown));
+    // The pointer of the screen itself may come by in between.
+    const auto readout = [&] {
+        QTest::mouseMove(&window_->map(), onScreen(at));
+        return window_->findChild<QLabel*>("readout")->text();
+    };
+    QTRY_VERIFY(readout().contains("height"));
     QTest::mouseClick(&window_->map(), Qt::LeftButton, {}, onScreen(at));
     auto* advice = window_->findChild<QLabel*>("advice");
     QVERIFY(advice != nullptr);
@@ -288,6 +291,8 @@ void WindowTest::breaklineIsDrawnByClicksAndHoldsTheSurface() {
 
 void WindowTest::profileShowsHeightsAlongALine() {
     processed();
+    const auto* messages = window_->findChild<QDockWidget*>("dock_messages");
+    const int messages_px = messages->height();
     MapView& map = window_->map();
     const QPointF centre = map.scene().extent_m().center();
     action("tool_profile").trigger();
@@ -303,6 +308,8 @@ void WindowTest::profileShowsHeightsAlongALine() {
     const auto& report = session().products()->report.surface;
     for (const double height : line.y)
         QVERIFY(std::isnan(height) || (height >= report.lowest_m && height <= report.highest_m));
+    window_->findChild<QDockWidget*>("dock_profile")->close();
+    QTRY_COMPARE(messages->height(), messages_px);
 }
 
 void WindowTest::reportIsShownSavedAndPrinted() {
@@ -1008,7 +1015,7 @@ void WindowTest::orchardNeverSilencesTheWindow() {
         const QByteArray name = QString("tab %1").arg(tab).toUtf8();
         turns_ms.push_back(measured(name.constData(), [&] { return shown.elapsed() > 500; }));
     }
-    for (const double ms : turns_ms) QVERIFY2(ms < 500.0, qPrintable(QString::number(ms)));
+    for (const double ms : turns_ms) QVERIFY2(ms < 200.0, qPrintable(QString::number(ms)));
 }
 
 }  // namespace terrawalk::gui
