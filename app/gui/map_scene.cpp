@@ -337,10 +337,11 @@ void drawStretches(QPainter& painter, const MapScene& scene, const MapTransform&
                      transform);
         }
         if (scene.stretch && scene.stretch->run == id) {
-            QColor glow = accentColour();
-            glow.setAlpha(150);
-            drawPart(painter, track, scene.stretch->from_s, scene.stretch->to_s,
-                     QPen(glow, 10.0, Qt::SolidLine, Qt::FlatCap, Qt::RoundJoin), transform);
+            // Opaque: the line is drawn in pieces, which would show where they overlap.
+            for (const auto& [colour, width_px] : {std::pair(QColor(Qt::white), 9.0), {accentColour(), 6.0}}) {
+                drawPart(painter, track, scene.stretch->from_s, scene.stretch->to_s,
+                         QPen(colour, width_px, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin), transform);
+            }
         }
     }
 }

@@ -41,6 +41,11 @@ constexpr std::array<std::pair<const char*, const char*>, 15> kUnits{{
     {"_sigmas", "σ"},
 }};
 
+// A zero that leaves the choice to the program reads better as a word.
+bool zeroMeansAuto(const QString& key) {
+    return text(parameterInfo(key.toStdString()).meaning).contains("0: from ");
+}
+
 }  // namespace
 
 SettingEditor::SettingEditor(SurveySession& session, const QString& key, QWidget* parent)
@@ -108,17 +113,22 @@ void SettingEditor::buildNumber() {
     unit->setFixedWidth(4 * kGrid_px);
     field->setMinimumWidth(7 * kGrid_px);
     layout()->addWidget(unit);
-    const auto follow = [this, field](const QString& key) {
+    const bool empty_is_auto = zeroMeansAuto(key_);
+    if (empty_is_auto) field->setPlaceholderText(tr("auto"));
+    const auto follow = [this, field, empty_is_auto](const QString& key) {
         if (key != key_) return;
-        field->setText(text(session_.settings().text(key_.toStdString())));
+        const QString value = text(session_.settings().text(key_.toStdString()));
+        field->setText(empty_is_auto && value.toDouble() == 0.0 ? QString() : value);
         showRefused(*field, false);
     };
     follow(key_);
     connect(&session_, &SurveySession::settingChanged, field, follow);
-    connect(field, &QLineEdit::editingFinished, this, [this, field, follow] {
+    connect(field, &QLineEdit::editingFinished, this, [this, field, empty_is_auto] {
         if (!field->isModified()) return;
         field->setModified(false);
-        showRefused(*field, !session_.changeSetting(key_, field->text().trimmed()));
+        const QString entered = field->text().trimmed();
+        const bool automatic = empty_is_auto && entered.isEmpty();
+        showRefused(*field, !session_.changeSetting(key_, automatic ? "0" : entered));
     });
     setFocusProxy(field);
 }

@@ -3322,6 +3322,10 @@
     <context>
         <name>terrawalk::gui::SettingEditor</name>
         <message>
+            <source>auto</source>
+            <translation>自动</translation>
+        </message>
+        <message>
             <source>&lt;p&gt;%1&lt;/p&gt;&lt;p&gt;Permitted: %2&lt;br&gt;Default: %3&lt;br&gt;&lt;tt&gt;%4&lt;/tt&gt;&lt;/p&gt;</source>
             <translation>&lt;p&gt;%1&lt;/p&gt;&lt;p&gt;允许值：%2&lt;br&gt;默认：%3&lt;br&gt;&lt;tt&gt;%4&lt;/tt&gt;&lt;/p&gt;</translation>
         </message>

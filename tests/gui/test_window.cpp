@@ -82,6 +82,7 @@ class WindowTest : public QObject {
     void profileShowsHeightsAlongALine();
     void reportIsShownSavedAndPrinted();
     void settingsAreCheckedAndUndone();
+    void sizeOfCellsIsAutoUntilOneIsEntered();
     void cancelStopsSoonAndKeepsWhatWasThere();
     void windowAnswersWhileItWorks();
     void unsavedChangesComeBackAfterTheProcessWasKilled();
@@ -341,6 +342,28 @@ void WindowTest::settingsAreCheckedAndUndone() {
     QVERIFY(messages().contains("surface.cell_m"));
     action("undo").trigger();
     QCOMPARE(session().settings().config().surface.cell_m, 0.0);
+}
+
+void WindowTest::sizeOfCellsIsAutoUntilOneIsEntered() {
+    openSample();
+    QLineEdit* field = nullptr;
+    for (QLineEdit* candidate : window_->findChildren<QLineEdit*>()) {
+        if (candidate->accessibleName() == settingLabel("surface.cell_m")) field = candidate;
+    }
+    QVERIFY(field);
+    QCOMPARE(field->text(), QString());
+    QCOMPARE(field->placeholderText(), QString("auto"));
+    const auto enter = [&](const QString& value) {
+        field->selectAll();
+        QTest::keyClick(field, Qt::Key_Delete);
+        QTest::keyClicks(field, value);
+        QTest::keyClick(field, Qt::Key_Return);
+    };
+    enter("0.5");
+    QCOMPARE(session().settings().config().surface.cell_m, 0.5);
+    enter("");
+    QCOMPARE(session().settings().config().surface.cell_m, 0.0);
+    QCOMPARE(field->text(), QString());
 }
 
 void WindowTest::cancelStopsSoonAndKeepsWhatWasThere() {
