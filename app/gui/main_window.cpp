@@ -349,8 +349,9 @@ void MainWindow::buildEditMenu() {
     QMenu& menu = *menuBar()->addMenu(tr("&Edit"));
     QUndoStack& stack = session_.undoStack();
     for (const bool undo : {true, false}) {
-        QAction* action =
-            undo ? stack.createUndoAction(this, tr("&Undo")) : stack.createRedoAction(this, tr("&Redo"));
+        const QString name = undo ? tr("&Undo") : tr("&Redo");
+        QAction* action = undo ? stack.createUndoAction(this, name) : stack.createRedoAction(this, name);
+        action->setProperty(kPlainMeaning, name);  // its text also tells what would be undone
         action->setObjectName(undo ? "undo" : "redo");
         action->setProperty(kIconName, undo ? "undo" : "redo");
         action->setShortcut(undo ? QKeySequence::Undo : QKeySequence::Redo);

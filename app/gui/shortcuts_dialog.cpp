@@ -3,6 +3,7 @@
 #include <QDialogButtonBox>
 #include <QGridLayout>
 #include <QLabel>
+#include <QRegularExpression>
 #include <QVBoxLayout>
 
 #include "app/gui/theme.hpp"
@@ -40,8 +41,12 @@ QGridLayout* table(const QString& title, const QList<Row>& rows) {
 }
 
 Row rowOf(const QAction& action) {
-    QString meaning = action.text();
-    return {action.shortcut().toString(QKeySequence::NativeText), meaning.remove('&').remove("…")};
+    const QVariant plain = action.property(kPlainMeaning);
+    QString meaning = plain.isValid() ? plain.toString() : action.text();
+    // Chinese menus keep the letter of a mnemonic in brackets.
+    static const QRegularExpression kMnemonic(R"(\s*\(&\w\))");
+    meaning.remove(kMnemonic).remove('&').remove("…");
+    return {action.shortcut().toString(QKeySequence::NativeText), meaning};
 }
 
 }  // namespace

@@ -7,6 +7,9 @@
 
 namespace terrawalk::gui {
 
+/// Property of an action whose text changes: what it always means.
+inline constexpr const char* kPlainMeaning = "plain_meaning";
+
 /// All keys of the window in one table.
 class ShortcutsDialog : public QDialog {
     Q_OBJECT
