@@ -536,7 +536,8 @@ std::string surfaceSection(const SurveyReport& report) {
                                     groupedDigits(u.measured), groupedDigits(u.interpolated),
                                     groupedDigits(u.extrapolated), fixedDecimals(u.greatest_distance_m, 1)));
         rows += pairRow("Interpolation",
-                        fmt::format("{} heights foretold from the points around them, {} within 1.96 sigma",
+                        fmt::format("{}{} heights foretold from the points around them, {} within 1.96 sigma",
+                                    u.own_variance ? "the method\u2019s own variance, scaled; " : "",
                                     groupedDigits(u.left_out.n), share(u.left_out.within, u.left_out.n)));
     }
     rows += pairRow("Heights", fmt::format("{} m to {} m", metres3(s.lowest_m), metres3(s.highest_m)));

@@ -156,6 +156,8 @@ Json uncertaintyJson(const std::optional<UncertaintySummary>& u) {
             {"cells_interpolated", u->interpolated},
             {"cells_extrapolated", u->extrapolated},
             {"interpolation_coefficients", u->coefficients},
+            {"own_variance", u->own_variance},
+            {"at_point_m", u->at_point_m},
             {"greatest_distance_m", u->greatest_distance_m},
             {"left_out", coverageJson(u->left_out)}};
 }

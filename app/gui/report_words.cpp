@@ -224,6 +224,10 @@ constexpr const char* kSentences[] = {
     QT_TRANSLATE_NOOP("Report", "the barometer was silent for up to %1 s: %2"),
     QT_TRANSLATE_NOOP("Report", "it walks straight and ends %1 m by GNSS from %2"),
     QT_TRANSLATE_NOOP("Report", "its name says %1"),
+    QT_TRANSLATE_NOOP(
+        "Report",
+        "variance of the method: noise times %1, structure times %2, learnt from %3 points left "
+        "out"),
     QT_TRANSLATE_NOOP("Report", "it walks %1 m within %2 m"),
     QT_TRANSLATE_NOOP("Report",
                       "zero point: mean GNSS position of the ground where %1 of %2 walks start, %3 m apart "

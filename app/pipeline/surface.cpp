@@ -159,10 +159,12 @@ Result<GridGeometry> geometryOf(const SurfaceRequest& request, const GroundTrian
 /// Points and surface end with this function: writing needs their memory.
 Result<InterpolatedGrid> gridOf(SurfaceInput input, GroundTriangles ground, const GridGeometry& geometry,
                                 InterpolationMethod method, const SurfaceModelOptions& options,
-                                Progress& progress, const std::stop_token& stop) {
+                                std::vector<std::string>& notes, Progress& progress,
+                                const std::stop_token& stop) {
     PartialProgress fitting(progress, 0.0, 0.5), gridding(progress, 0.5, 1.0);
     const auto surface = SurfaceModel::fit(input, std::move(ground), method, options, fitting, stop);
     if (!surface) return tl::unexpected(surface.error());
+    if (const auto& scale = surface->varianceScale()) notes.push_back(inWords(*scale));
     if (method == InterpolationMethod::Linear) input = {};  // the triangles hold all of it
     return surface->grid(geometry, gridding, stop);
 }
@@ -371,7 +373,8 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
     }
     const std::vector<TerraceEdge> edges = std::move(ground->terrace_edges);
     PartialProgress fitting(progress, 0.7, 0.9);
-    auto grid = gridOf(std::move(input), std::move(*ground), *geometry, report.method, model, fitting, stop);
+    auto grid = gridOf(std::move(input), std::move(*ground), *geometry, report.method, model, report.notes,
+                       fitting, stop);
     if (!grid) return tl::unexpected(grid.error());
     summarize(grid->heights, report);
     progress.report(0.9, "writing");

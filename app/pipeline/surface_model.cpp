@@ -133,20 +133,30 @@ Result<MethodChoice> chooseMethod(const SurfaceInput& input, const GroundTriangl
     return choice;
 }
 
+std::string inWords(const VarianceScale& scale) {
+    return fmt::format(
+        "variance of the method: noise times {:.2f}, structure times {:.2f}, learnt from {} points left out",
+        scale.noise, scale.structure, scale.left_out.n);
+}
+
 SurfaceModel::SurfaceModel(GroundTriangles ground, InterpolationMethod method,
                            std::unique_ptr<const HeightInterpolator> heights)
     : ground_(std::move(ground)),
       method_(method),
       heights_(std::move(heights)),
-      locator_(std::make_unique<const LocatorOnDemand>()) {}
+      locator_(std::make_unique<const LocatorOnDemand>()) {
+    if (heights_) variance_scale_ = heights_->varianceScale();
+}
 
 Result<SurfaceModel> SurfaceModel::fit(const SurfaceInput& input, GroundTriangles ground,
                                        InterpolationMethod method, const SurfaceModelOptions& options,
                                        Progress& progress, std::stop_token stop) {
     if (method == InterpolationMethod::Linear) return SurfaceModel(std::move(ground), method, nullptr);
+    InterpolationOptions interpolation = options.interpolation;
+    interpolation.learn_variance = true;
     auto heights = ground.constrained ? fitInterpolator(method, ground.constrained)
-                                      : fitInterpolator(method, input.points_m, input.sigmas_m,
-                                                        options.interpolation, progress, stop);
+                                      : fitInterpolator(method, input.points_m, input.sigmas_m, interpolation,
+                                                        progress, stop);
     if (!heights) return tl::unexpected(heights.error());
     return SurfaceModel(std::move(ground), method, std::move(*heights));
 }

@@ -90,6 +90,8 @@ class SurfaceModel {
     [[nodiscard]] InterpolationMethod method() const { return method_; }
     /// Nothing outside the ground's triangles, whatever the method.
     [[nodiscard]] std::optional<double> heightAt(double x_m, double y_m) const;
+    /// Of a method with a variance, which is scaled so.
+    [[nodiscard]] const std::optional<VarianceScale>& varianceScale() const { return variance_scale_; }
     /// Cells outside the ground's triangles stay empty.
     [[nodiscard]] Result<InterpolatedGrid> grid(const GridGeometry& geometry, Progress& progress,
                                                 std::stop_token stop) const;
@@ -102,9 +104,11 @@ class SurfaceModel {
     InterpolationMethod method_;
     std::unique_ptr<const HeightInterpolator> heights_;  ///< null for linear: the triangles tell
     std::unique_ptr<const LocatorOnDemand> locator_;
+    std::optional<VarianceScale> variance_scale_;
 };
 
 /// What the reports say of it.
+[[nodiscard]] std::string inWords(const VarianceScale& scale);
 [[nodiscard]] TerraceEdgeSummary summaryOf(const std::vector<TerraceEdge>& edges);
 [[nodiscard]] std::optional<InterpolationComparison> comparisonOf(
     const std::optional<CrossValidation>& validation);

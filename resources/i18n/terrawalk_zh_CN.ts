@@ -742,6 +742,10 @@
             <translation>点已清理</translation>
         </message>
         <message>
+            <source>variance of the method: noise times %1, structure times %2, learnt from %3 points left out</source>
+            <translation>方法自身的方差：噪声乘以 %1，结构乘以 %2，由 %3 个留出点学得</translation>
+        </message>
+        <message>
             <source>looking for terrace edges</source>
             <translation>查找梯田边缘</translation>
         </message>

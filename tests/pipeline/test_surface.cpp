@@ -85,6 +85,7 @@ TEST(Surface, PutsHeightsAndErrorsInOneFileWhereKrigingHasThem) {
     const auto kriging = surfaceOf(request);
     ASSERT_TRUE(kriging) << kriging.error().text();
     ASSERT_THAT(kriging->files, Contains(folder / "dem_multiband.tif"));
+    EXPECT_THAT(kriging->notes, Contains(HasSubstr("variance of the method: noise times")));
     // Its first band is the DEM's.
     const auto both = readDem(folder / "dem_multiband.tif", {}), alone = readDem(folder / "dem.tif", {});
     ASSERT_TRUE(both && alone);
