@@ -228,6 +228,11 @@ constexpr const char* kSentences[] = {
         "Report",
         "variance of the method: noise times %1, structure times %2, learnt from %3 points left "
         "out"),
+    QT_TRANSLATE_NOOP("Report",
+                      "terrace edges found but not kept to: %1; method %2, which cannot follow them, "
+                      "foretells points left out better than those that do"),
+    QT_TRANSLATE_NOOP("Report", "terrace edges are not looked for: method %1 cannot follow them"),
+    QT_TRANSLATE_NOOP("Report", "terrace edges are not looked for among more than %1 points"),
     QT_TRANSLATE_NOOP("Report", "it walks %1 m within %2 m"),
     QT_TRANSLATE_NOOP("Report",
                       "zero point: mean GNSS position of the ground where %1 of %2 walks start, %3 m apart "

@@ -261,6 +261,9 @@ Result<Surface> makeSurface(const Survey& survey, const GroundTrack& track, cons
     if (!ground) return tl::unexpected(blaming(survey, ground.error()));
     auto choice = chooseMethod(input, *ground, model, judging, stop);
     if (!choice) return tl::unexpected(blaming(survey, choice.error()));
+    SilentProgress silent;
+    ground = groundFor(choice->method, std::move(*ground), input, model, silent, stop);
+    if (!ground) return tl::unexpected(blaming(survey, ground.error()));
     auto fitted = SurfaceModel::fit(input, std::move(*ground), choice->method, model, fitting, stop);
     if (!fitted) return tl::unexpected(blaming(survey, fitted.error()));
     return Surface{std::move(*chosen), input.points_m.size(), std::move(*fitted), std::move(*choice)};

@@ -341,13 +341,9 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
     PartialProgress triangulating(progress, 0.25, 0.35);
     auto ground = triangulateGround(input, model, triangulating, stop);
     if (!ground) return tl::unexpected(ground.error());
-    report.longest_edge = ground->longest_edge_m;
     report.points_used = input.points_m.size();
-    report.terrace_edges = summaryOf(ground->terrace_edges);
-    report.notes.insert(report.notes.end(), ground->notes.begin(), ground->notes.end());
-    const auto geometry = geometryOf(request, *ground);
+    auto geometry = geometryOf(request, *ground);
     if (!geometry) return tl::unexpected(geometry.error());
-    report.geometry = *geometry;
 
     // Before the long work: whether kriging, with its variances, will be chosen is not known yet.
     const bool variances = !model.method || *model.method == InterpolationMethod::Kriging;
@@ -365,10 +361,19 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
     PartialProgress judging(progress, 0.35, 0.7);
     auto choice = chooseMethod(input, *ground, model, judging, stop);
     if (!choice) return tl::unexpected(choice.error());
+    SilentProgress silent;
+    ground = groundFor(choice->method, std::move(*ground), input, model, silent, stop);
+    if (!ground) return tl::unexpected(ground.error());
+    geometry = geometryOf(request, *ground);
+    if (!geometry) return tl::unexpected(geometry.error());
+    report.geometry = *geometry;
+    report.longest_edge = ground->longest_edge_m;
+    report.terrace_edges = summaryOf(ground->terrace_edges);
+    report.notes.insert(report.notes.end(), ground->notes.begin(), ground->notes.end());
     report.method = choice->method;
     report.validation = std::move(choice->validation);
     if (!choice->note.empty()) report.notes.push_back(choice->note);
-    if (report.validation && ground->constrained) {
+    if (report.validation && ground->constrained && (model.method || !input.breaklines.empty())) {
         report.notes.emplace_back("the cross-validation is of the points without the breaklines");
     }
     const std::vector<TerraceEdge> edges = std::move(ground->terrace_edges);

@@ -746,6 +746,18 @@
             <translation>方法自身的方差：噪声乘以 %1，结构乘以 %2，由 %3 个留出点学得</translation>
         </message>
         <message>
+            <source>terrace edges found but not kept to: %1; method %2, which cannot follow them, foretells points left out better than those that do</source>
+            <translation>找到但未采用的梯田边缘：%1 条；方法 %2 不能沿边缘构面，但对留出点的预测优于能沿边缘构面的方法</translation>
+        </message>
+        <message>
+            <source>terrace edges are not looked for: method %1 cannot follow them</source>
+            <translation>不查找梯田边缘：方法 %1 不能沿边缘构面</translation>
+        </message>
+        <message>
+            <source>terrace edges are not looked for among more than %1 points</source>
+            <translation>点数超过 %1 时不查找梯田边缘</translation>
+        </message>
+        <message>
             <source>looking for terrace edges</source>
             <translation>查找梯田边缘</translation>
         </message>
