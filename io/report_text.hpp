@@ -44,6 +44,7 @@ namespace terrawalk {
 ///                         median_location_sigma_m}, notes, points, triangles, longest_edge_m, area_m2,
 ///                         cell_m, columns, rows, cells_with_height, lowest_m, highest_m, crs,
 ///                         vertical_datum}
+///     occupancy           null or as occupancyJson()
 ///     runs                [{id, kind, rows_read, epochs, repeated_lines, late_lines, cut_off_line (or null),
 ///                         duration_s, distance_m, fixes: [{reason, count}], sensors: [{sensor, offered,
 ///                         used, down_weighted, rejections: [{reason, count}]}], ground_points_used,
@@ -55,6 +56,10 @@ namespace terrawalk {
 ///     settings            [{key, requested, used}]
 ///     inputs              [{path, bytes, sha256}]
 [[nodiscard]] std::string reportJson(const SurveyReport& report);
+
+/// The numbers of a map of the space as a JSON object, the same in report.json and in what `terrawalk
+/// occupancy` writes.
+[[nodiscard]] std::string occupancyJson(const OccupancySummary& summary);
 
 /// The report as one page of HTML that is well-formed XML too: styles and drawings inside, no script, nothing
 /// fetched.

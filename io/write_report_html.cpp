@@ -547,6 +547,22 @@ std::string surfaceSection(const SurveyReport& report) {
            (s.comparison ? comparisonTable(*s.comparison) : "");
 }
 
+std::string occupancySection(const OccupancySummary& summary) {
+    std::string rows;
+    for (const auto& [word, line] : inWords(summary)) rows += pairRow(word, line);
+    rows +=
+        pairRow("Ground layer", fmt::format("what lies lower than {:g} m above the terrain model counts as "
+                                            "ground; looked up to {:g} m",
+                                            summary.ground_layer_m, summary.greatest_height_m));
+    return "<div class=\"scroll\"><table>\n" + tableBody(rows) + "</table></div>\n" +
+           note(
+               "What the laser crossed is free, where it ended is occupied; of the rest nothing is known. "
+               "Files: "
+               "occupancy.bt and occupancy.ot for OctoMap, free_height.tif, and obstacle_height.tif where "
+               "there is "
+               "any obstacle.");
+}
+
 // ---------------------------------------------------------------------------------------------- runs
 
 /// Line numbers with neighbours drawn together: "4, 17-19 and 3 more".
@@ -796,6 +812,9 @@ std::string reportHtml(const SurveyReport& report) {
         out += section("adjustment", "Adjustment of all runs", adjustmentSection(report.adjustment));
     }
     out += section("surface", "Terrain model", surfaceSection(report));
+    if (report.occupancy) {
+        out += section("occupancy", "Space above the ground", occupancySection(*report.occupancy));
+    }
     out += section("runs", "Runs", runSection(report));
     out += section("sensors", "Use of the sensors", sensorSection(report));
     out += section("tuning", "Tuning", tuningSection(report));

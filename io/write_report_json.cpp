@@ -185,6 +185,23 @@ Json surfaceJson(const SurfaceReport& s) {
             {"vertical_datum", s.vertical_datum}};
 }
 
+Json spaceJson(const OccupancySummary& o) {
+    return {{"octree_origin_m", jsonVector(o.origin_m)},
+            {"voxel_m", o.voxel_m},
+            {"greatest_range_m", o.greatest_range_m},
+            {"ground_layer_m", o.ground_layer_m},
+            {"greatest_height_m", o.greatest_height_m},
+            {"rays", o.rays},
+            {"ground_points_left_out", o.left_out},
+            {"hits_below_ground", o.below_ground},
+            {"free_m3", o.free_m3},
+            {"occupied_m3", o.occupied_m3},
+            {"ground_cells", o.ground_cells},
+            {"cells_known_free", o.cells_known_free},
+            {"median_free_height_m", o.median_free_height_m},
+            {"cells_with_obstacle", o.cells_with_obstacle}};
+}
+
 template <class Reason>
 Json reasonsJson(const std::vector<Reason>& reasons) {
     return listOf(reasons, [](const Reason& r) { return Json{{"reason", r.reason}, {"count", r.count}}; });
@@ -300,12 +317,17 @@ std::string reportJson(const SurveyReport& report) {
                     {"marks", listOf(report.marks, markJson)},
                     {"adjustment", adjustmentJson(report.adjustment)},
                     {"surface", surfaceJson(report.surface)},
+                    {"occupancy", report.occupancy ? spaceJson(*report.occupancy) : Json(nullptr)},
                     {"runs", listOf(report.runs, runJson)},
                     {"tuning", tuningJson(report.tuning)},
                     {"settings", listOf(report.settings, settingJson)},
                     {"inputs", listOf(report.inputs, inputJson)}};
     // Names come from files of anybody: what is no UTF-8 becomes U+FFFD instead of an exception.
     return json.dump(1, '\t', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string occupancyJson(const OccupancySummary& summary) {
+    return spaceJson(summary).dump();
 }
 
 Result<void> writeReportJson(const SurveyReport& report, const std::filesystem::path& file) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "survey/ground_point.hpp"
@@ -227,6 +228,26 @@ struct SurfaceReport {
     std::string vertical_datum;  ///< what the heights refer to
 };
 
+/// The space above the ground that the laser crossed.
+struct OccupancySummary {
+    double voxel_m = 0.0;
+    double greatest_range_m = 0.0;
+    double ground_layer_m = 0.0;                         ///< what lies lower above the DEM counts as ground
+    double greatest_height_m = 0.0;                      ///< how far up was looked
+    Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();  ///< map coordinates of the octree's zero
+    std::size_t rays = 0;
+    std::size_t left_out = 0;      ///< ground points without a sound range, position or epoch
+    std::size_t below_ground = 0;  ///< of them hits below the DEM by more than the ground layer
+    double free_m3 = 0.0;
+    double occupied_m3 = 0.0;
+    std::size_t ground_cells = 0;
+    std::size_t cells_known_free = 0;   ///< with free space right above the ground layer
+    double median_free_height_m = 0.0;  ///< of those cells
+    std::size_t cells_with_obstacle = 0;
+};
+/// What all texts say of it, line by line: a word, and what is to be told.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> inWords(const OccupancySummary& summary);
+
 /// How parameters of the fusion were tuned, where they were.
 struct TuningRecord {
     std::string survey;   ///< whose marks were used
@@ -260,6 +281,7 @@ struct SurveyReport {
     std::vector<RunReport> runs;
     std::optional<AdjustmentSummary> adjustment;  ///< of all runs, by method terrawalk
     SurfaceReport surface;
+    std::optional<OccupancySummary> occupancy;  ///< where it was asked for
     std::optional<TuningRecord> tuning;
     std::optional<ReliefPicture> relief;  ///< of the surface, under the map; not part of report.json
     std::vector<ControlMark> marks;

@@ -527,6 +527,9 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     if (auto checked = checkBreaklines(survey, config, *projection); !checked) {
         return tl::unexpected(checked.error());
     }
+    if (config.surface.map_space) {
+        if (auto fits = checkOptions(config.surface.space); !fits) return tl::unexpected(fits.error());
+    }
     PartialProgress fusing(progress, 0.0, 0.5);
     auto fused = trackGround(survey, config.fusion, config.ground, fusing, stop);
     if (!fused) return tl::unexpected(fused.error());
@@ -561,7 +564,7 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     auto dem = surface->model.grid(*geometry, gridding, stop);
     if (!dem) return tl::unexpected(dem.error());
     products.dem = std::move(dem->heights);
-    PartialProgress propagating(progress, 0.9, 1.0);
+    PartialProgress propagating(progress, 0.9, 0.97), mapping(progress, 0.97, 1.0);
     auto uncertainty = uncertaintyOf(*surface, fused->runs, products.dem, std::move(dem->variances_m2),
                                      config, *projection, propagating, stop);
     if (!uncertainty && uncertainty.error().kind != ErrorKind::BadData) {
@@ -638,6 +641,13 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
             for (SensorConsistency& sums : run.consistency) run.innovations.push_back({std::move(sums), {}});
         }
         products.innovations.push_back(std::move(run.innovations));
+    }
+    if (config.surface.map_space) {
+        auto space = mapSpace(products.ground_points, products.trajectories, *projection, products.dem,
+                              config.surface.space, mapping, stop);
+        if (!space) return tl::unexpected(blaming(survey, space.error()));
+        report.occupancy = space->summary;
+        products.space = std::make_shared<const SpaceMap>(std::move(*space));
     }
     progress.report(1.0, "processed");
     return products;
