@@ -262,20 +262,20 @@ const MeasureTable kUsualMeasures{
     },
     ""};
 
-const MeasureTable kRobustMeasures{{{"Median", true},
-                                    {"95 % interval", true},
-                                    {"NMAD", true},
-                                    {"95 % interval", true},
-                                    {"68.3 % of |d| below", true},
-                                    {"95 % of |d| below", true},
-                                    {"95 % interval", true}},
-                                   [](const ErrorStatistics& s) {
-                                       return metresCell(s.median_m) + intervalCell(s.median_95) +
-                                              metresCell(s.nmad_m) + intervalCell(s.nmad_95) +
-                                              metresCell(s.error68_m) + metresCell(s.error95_m) +
-                                              intervalCell(s.error95_95);
-                                   },
-                                   "-robust"};
+const MeasureTable kRobustMeasures{
+    {{"Median", true},
+     {"95 % interval", true},
+     {"NMAD", true},
+     {"95 % interval", true},
+     {"68.3 % of |d| below", true},
+     {"95 % of |d| below", true},
+     {"95 % interval", true}},
+    [](const ErrorStatistics& s) {
+        return metresCell(s.median_m) + intervalCell(s.median_95) + metresCell(s.nmad_m) +
+               intervalCell(s.nmad_95) + metresCell(s.error68_m) + metresCell(s.error95_m) +
+               (s.error95_95 ? intervalCell(s.error95_95) : cell(Cell::Text, whyNoError95Interval(s)));
+    },
+    "-robust"};
 
 std::vector<Heading> withMeasures(std::vector<Heading> headings, const MeasureTable& measures) {
     headings.insert(headings.end(), measures.headings.begin(), measures.headings.end());

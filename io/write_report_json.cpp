@@ -54,6 +54,7 @@ Json statisticsJson(const std::optional<ErrorStatistics>& s) {
             {"error68_m", jsonNumber(s->error68_m)},
             {"error95_m", jsonNumber(s->error95_m)},
             {"error95_95_m", intervalJson(s->error95_95)},
+            {"error95_95_note", s->error95_95 ? Json(nullptr) : Json(whyNoError95Interval(*s))},
             {"largest_m", jsonNumber(s->largest_m)}};
 }
 
@@ -324,6 +325,12 @@ std::string reportJson(const SurveyReport& report) {
                     {"inputs", listOf(report.inputs, inputJson)}};
     // Names come from files of anybody: what is no UTF-8 becomes U+FFFD instead of an exception.
     return json.dump(1, '\t', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string whyNoError95Interval(const ErrorStatistics& statistics) {
+    if (statistics.error95_95) return {};
+    return fmt::format("not determined with {} {}", statistics.marks,
+                       statistics.marks == 1 ? "mark" : "marks");
 }
 
 std::string occupancyJson(const OccupancySummary& summary) {

@@ -246,6 +246,8 @@ constexpr const char* kSentences[] = {
     QT_TRANSLATE_NOOP("Report", "%1 m3 free, %2 m3 occupied, in voxels of %3 m about %4 %5 %6"),
     QT_TRANSLATE_NOOP("Report", "right above the ground in %1 of %2 cells (%3 %), there to %4 m (median)"),
     QT_TRANSLATE_NOOP("Report", "above the ground in %1 cells (%2 %)"),
+    QT_TRANSLATE_NOOP("Report", "not determined with %1 marks"),
+    QT_TRANSLATE_NOOP("Report", "not determined with %1 mark"),
     QT_TRANSLATE_NOOP("Report", "terrace edges are not looked for: method %1 cannot follow them"),
     QT_TRANSLATE_NOOP("Report", "terrace edges are not looked for among more than %1 points"),
     QT_TRANSLATE_NOOP("Report", "it walks %1 m within %2 m"),

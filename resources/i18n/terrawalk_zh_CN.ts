@@ -818,6 +818,14 @@
             <translation>地面以上有障碍物的格网 %1 个（%2 %）</translation>
         </message>
         <message>
+            <source>not determined with %1 marks</source>
+            <translation>%1 个标志点不足以确定</translation>
+        </message>
+        <message>
+            <source>not determined with %1 mark</source>
+            <translation>%1 个标志点不足以确定</translation>
+        </message>
+        <message>
             <source>looking for terrace edges</source>
             <translation>查找梯田边缘</translation>
         </message>
