@@ -30,7 +30,7 @@ namespace terrawalk {
 ///         east ...        null or {n, marks, mean_m, sd_m, rmse_m, rmse_95_m: [low, high] or null, mae_m,
 ///         median_m,
 ///                         nmad_m, error68_m, error95_m, largest_m, and with 95 % intervals [low, high] or
-///                         null median_95_m, nmad_95_m, error95_95_m}
+///                         null median_95_m, nmad_95_m, error95_95_m; error95_95_note says why there is none}
 ///         up_coverage     null or {n, within_1_96_sigma, mean_square}: of error over sigma
 ///     strata              [{name, up}]                       of the headline group
 ///     slope_leakage       null or {plan_rmse_m, rmse_m, share, n}
@@ -44,6 +44,7 @@ namespace terrawalk {
 ///                         median_location_sigma_m}, notes, points, triangles, longest_edge_m, area_m2,
 ///                         cell_m, columns, rows, cells_with_height, lowest_m, highest_m, crs,
 ///                         vertical_datum}
+///     occupancy           null or as occupancyJson()
 ///     runs                [{id, kind, rows_read, epochs, repeated_lines, late_lines, cut_off_line (or null),
 ///                         duration_s, distance_m, fixes: [{reason, count}], sensors: [{sensor, offered,
 ///                         used, down_weighted, rejections: [{reason, count}]}], ground_points_used,
@@ -55,6 +56,14 @@ namespace terrawalk {
 ///     settings            [{key, requested, used}]
 ///     inputs              [{path, bytes, sha256}]
 [[nodiscard]] std::string reportJson(const SurveyReport& report);
+
+/// What every report says in the place of an interval of the 95 % quantile that so few marks do not tell;
+/// empty where they do.
+[[nodiscard]] std::string whyNoError95Interval(const ErrorStatistics& statistics);
+
+/// The numbers of a map of the space as a JSON object, the same in report.json and in what `terrawalk
+/// occupancy` writes.
+[[nodiscard]] std::string occupancyJson(const OccupancySummary& summary);
 
 /// The report as one page of HTML that is well-formed XML too: styles and drawings inside, no script, nothing
 /// fetched.

@@ -262,20 +262,20 @@ const MeasureTable kUsualMeasures{
     },
     ""};
 
-const MeasureTable kRobustMeasures{{{"Median", true},
-                                    {"95 % interval", true},
-                                    {"NMAD", true},
-                                    {"95 % interval", true},
-                                    {"68.3 % of |d| below", true},
-                                    {"95 % of |d| below", true},
-                                    {"95 % interval", true}},
-                                   [](const ErrorStatistics& s) {
-                                       return metresCell(s.median_m) + intervalCell(s.median_95) +
-                                              metresCell(s.nmad_m) + intervalCell(s.nmad_95) +
-                                              metresCell(s.error68_m) + metresCell(s.error95_m) +
-                                              intervalCell(s.error95_95);
-                                   },
-                                   "-robust"};
+const MeasureTable kRobustMeasures{
+    {{"Median", true},
+     {"95 % interval", true},
+     {"NMAD", true},
+     {"95 % interval", true},
+     {"68.3 % of |d| below", true},
+     {"95 % of |d| below", true},
+     {"95 % interval", true}},
+    [](const ErrorStatistics& s) {
+        return metresCell(s.median_m) + intervalCell(s.median_95) + metresCell(s.nmad_m) +
+               intervalCell(s.nmad_95) + metresCell(s.error68_m) + metresCell(s.error95_m) +
+               (s.error95_95 ? intervalCell(s.error95_95) : cell(Cell::Text, whyNoError95Interval(s)));
+    },
+    "-robust"};
 
 std::vector<Heading> withMeasures(std::vector<Heading> headings, const MeasureTable& measures) {
     headings.insert(headings.end(), measures.headings.begin(), measures.headings.end());
@@ -536,7 +536,8 @@ std::string surfaceSection(const SurveyReport& report) {
                                     groupedDigits(u.measured), groupedDigits(u.interpolated),
                                     groupedDigits(u.extrapolated), fixedDecimals(u.greatest_distance_m, 1)));
         rows += pairRow("Interpolation",
-                        fmt::format("{} heights foretold from the points around them, {} within 1.96 sigma",
+                        fmt::format("{}{} heights foretold from the points around them, {} within 1.96 sigma",
+                                    u.own_variance ? "the method\u2019s own variance, scaled; " : "",
                                     groupedDigits(u.left_out.n), share(u.left_out.within, u.left_out.n)));
     }
     rows += pairRow("Heights", fmt::format("{} m to {} m", metres3(s.lowest_m), metres3(s.highest_m)));
@@ -544,6 +545,22 @@ std::string surfaceSection(const SurveyReport& report) {
     rows += pairRow("Heights refer to", s.vertical_datum);
     return "<div class=\"scroll\"><table>\n" + tableBody(rows) + "</table></div>\n" +
            (s.comparison ? comparisonTable(*s.comparison) : "");
+}
+
+std::string occupancySection(const OccupancySummary& summary) {
+    std::string rows;
+    for (const auto& [word, line] : inWords(summary)) rows += pairRow(word, line);
+    rows +=
+        pairRow("Ground layer", fmt::format("what lies lower than {:g} m above the terrain model counts as "
+                                            "ground; looked up to {:g} m",
+                                            summary.ground_layer_m, summary.greatest_height_m));
+    return "<div class=\"scroll\"><table>\n" + tableBody(rows) + "</table></div>\n" +
+           note(
+               "What the laser crossed is free, where it ended is occupied; of the rest nothing is known. "
+               "Files: "
+               "occupancy.bt and occupancy.ot for OctoMap, free_height.tif, and obstacle_height.tif where "
+               "there is "
+               "any obstacle.");
 }
 
 // ---------------------------------------------------------------------------------------------- runs
@@ -795,6 +812,9 @@ std::string reportHtml(const SurveyReport& report) {
         out += section("adjustment", "Adjustment of all runs", adjustmentSection(report.adjustment));
     }
     out += section("surface", "Terrain model", surfaceSection(report));
+    if (report.occupancy) {
+        out += section("occupancy", "Space above the ground", occupancySection(*report.occupancy));
+    }
     out += section("runs", "Runs", runSection(report));
     out += section("sensors", "Use of the sensors", sensorSection(report));
     out += section("tuning", "Tuning", tuningSection(report));

@@ -54,6 +54,7 @@ Json statisticsJson(const std::optional<ErrorStatistics>& s) {
             {"error68_m", jsonNumber(s->error68_m)},
             {"error95_m", jsonNumber(s->error95_m)},
             {"error95_95_m", intervalJson(s->error95_95)},
+            {"error95_95_note", s->error95_95 ? Json(nullptr) : Json(whyNoError95Interval(*s))},
             {"largest_m", jsonNumber(s->largest_m)}};
 }
 
@@ -156,6 +157,8 @@ Json uncertaintyJson(const std::optional<UncertaintySummary>& u) {
             {"cells_interpolated", u->interpolated},
             {"cells_extrapolated", u->extrapolated},
             {"interpolation_coefficients", u->coefficients},
+            {"own_variance", u->own_variance},
+            {"at_point_m", u->at_point_m},
             {"greatest_distance_m", u->greatest_distance_m},
             {"left_out", coverageJson(u->left_out)}};
 }
@@ -181,6 +184,23 @@ Json surfaceJson(const SurfaceReport& s) {
             {"highest_m", jsonNumber(s.highest_m)},
             {"crs", s.crs},
             {"vertical_datum", s.vertical_datum}};
+}
+
+Json spaceJson(const OccupancySummary& o) {
+    return {{"octree_origin_m", jsonVector(o.origin_m)},
+            {"voxel_m", o.voxel_m},
+            {"greatest_range_m", o.greatest_range_m},
+            {"ground_layer_m", o.ground_layer_m},
+            {"greatest_height_m", o.greatest_height_m},
+            {"rays", o.rays},
+            {"ground_points_left_out", o.left_out},
+            {"hits_below_ground", o.below_ground},
+            {"free_m3", o.free_m3},
+            {"occupied_m3", o.occupied_m3},
+            {"ground_cells", o.ground_cells},
+            {"cells_known_free", o.cells_known_free},
+            {"median_free_height_m", o.median_free_height_m},
+            {"cells_with_obstacle", o.cells_with_obstacle}};
 }
 
 template <class Reason>
@@ -298,12 +318,23 @@ std::string reportJson(const SurveyReport& report) {
                     {"marks", listOf(report.marks, markJson)},
                     {"adjustment", adjustmentJson(report.adjustment)},
                     {"surface", surfaceJson(report.surface)},
+                    {"occupancy", report.occupancy ? spaceJson(*report.occupancy) : Json(nullptr)},
                     {"runs", listOf(report.runs, runJson)},
                     {"tuning", tuningJson(report.tuning)},
                     {"settings", listOf(report.settings, settingJson)},
                     {"inputs", listOf(report.inputs, inputJson)}};
     // Names come from files of anybody: what is no UTF-8 becomes U+FFFD instead of an exception.
     return json.dump(1, '\t', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string whyNoError95Interval(const ErrorStatistics& statistics) {
+    if (statistics.error95_95) return {};
+    return fmt::format("not determined with {} {}", statistics.marks,
+                       statistics.marks == 1 ? "mark" : "marks");
+}
+
+std::string occupancyJson(const OccupancySummary& summary) {
+    return spaceJson(summary).dump();
 }
 
 Result<void> writeReportJson(const SurveyReport& report, const std::filesystem::path& file) {

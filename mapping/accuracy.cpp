@@ -65,10 +65,20 @@ ConfidenceInterval middle95(std::vector<double> values) {
     return {quantileOfSorted(values, 0.025), quantileOfSorted(values, 0.975)};
 }
 
+/// Of the 95 % quantile of sorted sizes, by order statistics. Differences at one mark count as one, as if
+/// each mark had as many: of n differences at m marks the places among m are stretched by n over m.
+std::optional<ConfidenceInterval> quantileInterval95(const std::vector<double>& sorted, std::size_t marks) {
+    const auto places = quantilePlaces95(marks, 0.95);
+    if (!places) return std::nullopt;
+    const std::size_t low = places->low * sorted.size() / marks;
+    const std::size_t high = ((places->high + 1) * sorted.size() + marks - 1) / marks - 1;
+    return ConfidenceInterval{sorted[low], sorted[high]};
+}
+
 void addIntervals(const std::vector<MarkSample>& marks, std::uint64_t seed, ErrorStatistics& s) {
     if (marks.size() < kLeastMarksForInterval) return;
     SplitMix64 random(seed);
-    std::vector<double> rmse, medians, nmads, errors95;
+    std::vector<double> rmse, medians, nmads;
     std::vector<double> drawn;
     for (std::size_t resample = 0; resample < kResamples; ++resample) {
         drawn.clear();
@@ -80,12 +90,10 @@ void addIntervals(const std::vector<MarkSample>& marks, std::uint64_t seed, Erro
         if (resample >= kRobustResamples) continue;
         medians.push_back(median(drawn));
         nmads.push_back(nmadAbout(drawn, medians.back()));
-        errors95.push_back(quantileOfSorted(sortedMagnitudes(drawn), 0.95));
     }
     s.rmse_95 = middle95(std::move(rmse));
     s.median_95 = middle95(std::move(medians));
     s.nmad_95 = middle95(std::move(nmads));
-    s.error95_95 = middle95(std::move(errors95));
 }
 
 ErrorStatistics statistics(const std::vector<double>& d, const std::vector<MarkSample>& marks,
@@ -112,6 +120,7 @@ ErrorStatistics statistics(const std::vector<double>& d, const std::vector<MarkS
     s.largest_m =
         *std::max_element(d.begin(), d.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
     addIntervals(marks, seed, s);
+    s.error95_95 = quantileInterval95(sorted, marks.size());
     return s;
 }
 

@@ -17,9 +17,10 @@ struct MarkDifference {
 
 /// Error measures of differences, each on a mark of its own. Needs at least one; all finite.
 /// The 95 % intervals are percentile bootstraps that draw marks, so that ten runs over one mark
-/// count as one mark. For normal errors they hold the truth in 90 to 98 % of cases, that of the 95 % quantile
-/// in 79 % with 30 marks and 92 % with 120 (400 samples each). The same differences in the same order with
-/// the same seed give the same bits on every machine. Pure; safe from any thread.
+/// count as one mark. For normal errors they hold the truth in 90 to 98 % of cases. That of the 95 % quantile
+/// is of order statistics, see quantilePlaces95(), and holds it in at least 95 %; it needs 72 marks. The same
+/// differences in the same order with the same seed give the same bits on every machine. Pure; safe from any
+/// thread.
 [[nodiscard]] ErrorStatistics errorStatistics(const std::vector<double>& differences_m, std::uint64_t seed);
 /// The same where several differences may belong to one mark.
 [[nodiscard]] ErrorStatistics errorStatistics(const std::vector<MarkDifference>& differences,

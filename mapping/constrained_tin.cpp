@@ -533,6 +533,10 @@ Result<ConstrainedTin> buildConstrainedTin(const std::vector<Eigen::Vector3d>& p
     }
 }
 
+bool followsBreaklines(InterpolationMethod method) {
+    return method == InterpolationMethod::Linear || method == InterpolationMethod::CloughTocher;
+}
+
 Result<InterpolatorPointer> fitInterpolator(InterpolationMethod method,
                                             std::shared_ptr<const ConstrainedTin> tin) {
     std::shared_ptr<const TriangleMesh> mesh(tin, &tin->mesh);

@@ -42,6 +42,9 @@ struct ConstrainedTin {
                                                          const ConstrainedTinOptions& options,
                                                          Progress& progress, std::stop_token stop);
 
+/// Whether a method keeps to breaklines; the others take points alone.
+[[nodiscard]] bool followsBreaklines(InterpolationMethod method);
+
 /// A surface over the triangles. Errors: Usage for a method other than Linear and CloughTocher, which alone
 /// keep to triangles.
 [[nodiscard]] Result<std::unique_ptr<const HeightInterpolator>> fitInterpolator(

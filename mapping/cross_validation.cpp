@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <random>
 #include <tuple>
 
+#include "mapping/constrained_tin.hpp"
 #include "mapping/delaunay_tin.hpp"
 #include "mapping/order_statistics.hpp"
 #include "mapping/plan_kd_tree.hpp"
@@ -117,6 +119,7 @@ struct Split {
     PlacedHeights kept;
     std::vector<Eigen::Vector2d> places_m;
     std::vector<double> heights_m;
+    std::shared_ptr<const ConstrainedTin> constrained;  ///< of what is left, along the breaklines
 };
 
 Split splitBy(const PlacedHeights& points, const Round& round) {
@@ -142,7 +145,9 @@ Result<Errors> errorsOf(InterpolationMethod method, const Split& split,
                         const InterpolationOptions& interpolation, const std::stop_token& stop) {
     SilentProgress silent;
     const auto surface =
-        fitInterpolator(method, split.kept.points_m, split.kept.sigmas_m, interpolation, silent, stop);
+        split.constrained && followsBreaklines(method)
+            ? fitInterpolator(method, split.constrained)
+            : fitInterpolator(method, split.kept.points_m, split.kept.sigmas_m, interpolation, silent, stop);
     if (!surface) return tl::unexpected(surface.error());
     std::vector<HeightEstimate> estimates(split.places_m.size());
     (*surface)->estimate(split.places_m, estimates);
@@ -191,15 +196,29 @@ HoldOutResult resultOf(HoldOut hold_out, std::size_t method_count,
     return result;
 }
 
+/// The triangles of a split along the breaklines, where there are any.
+std::optional<Error> followLines(Split& split, const std::vector<Breakline>& breaklines,
+                                 const std::stop_token& stop) {
+    if (breaklines.empty()) return std::nullopt;
+    SilentProgress silent;
+    auto tin = buildConstrainedTin(split.kept.points_m, breaklines, {}, silent, stop);
+    if (!tin) return tin.error();
+    split.constrained = std::make_shared<const ConstrainedTin>(std::move(*tin));
+    return std::nullopt;
+}
+
 Result<HoldOutResult> runHoldOut(HoldOut hold_out, const std::vector<Round>& rounds,
                                  const PlacedHeights& points, const std::vector<InterpolationMethod>& methods,
+                                 const std::vector<Breakline>& breaklines,
                                  const InterpolationOptions& interpolation, Progress& progress,
                                  const std::stop_token& stop) {
     std::vector<std::vector<Errors>> errors(rounds.size(), std::vector<Errors>(methods.size()));
     std::vector<std::optional<Error>> failures(rounds.size() * methods.size());
     std::atomic<std::size_t> done = 0;
     tbb::parallel_for(std::size_t{0}, rounds.size(), [&](std::size_t round) {
-        const Split split = splitBy(points, rounds[round]);
+        Split split = splitBy(points, rounds[round]);
+        failures[round * methods.size()] = followLines(split, breaklines, stop);
+        if (failures[round * methods.size()]) return;
         tbb::parallel_for(std::size_t{0}, methods.size(), [&](std::size_t m) {
             if (stop.stop_requested()) return;
             auto found = errorsOf(methods[m], split, interpolation, stop);
@@ -307,7 +326,8 @@ Result<CrossValidation> crossValidate(const std::vector<Eigen::Vector3d>& points
         std::erase_if(rounds, [&](const Round& round) { return count - round.size() < kLeastPoints / 2; });
         PartialProgress part(progress, begin, begin + 0.95 / kHoldOuts.size());
         begin += 0.95 / kHoldOuts.size();
-        auto result = runHoldOut(hold_out, rounds, points, validation.methods, interpolation, part, stop);
+        auto result = runHoldOut(hold_out, rounds, points, validation.methods, options.breaklines,
+                                 interpolation, part, stop);
         if (!result) return tl::unexpected(result.error());
         if (result->compared > 0) validation.results.push_back(std::move(*result));
     }

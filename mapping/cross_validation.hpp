@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mapping/height_interpolator.hpp"
+#include "survey/breakline.hpp"
 
 namespace terrawalk {
 
@@ -26,6 +27,7 @@ inline constexpr std::array<std::pair<HoldOut, std::string_view>, 3> kHoldOuts{{
 
 struct CrossValidationOptions {
     std::vector<InterpolationMethod> methods;  ///< empty: all
+    std::vector<Breakline> breaklines;         ///< for the methods that follow them
     std::size_t folds = 10;                    ///< parts of RandomFolds and SpatialBlocks
     double block_m = 0.0;                      ///< side of a block; 0: five mean point spacings
     std::size_t leave_one_out_points = 2000;   ///< that many are left out one by one, or all
@@ -63,8 +65,9 @@ struct CrossValidation {
 
 /// Foretells points from the others by each method and ranks the methods. Depends on points, options and seed
 /// alone, not on the order of the points or the number of threads. Units as for HeightInterpolator.
-/// Errors: as fitInterpolator(); BadData for fewer than 10 points at different places, and when no point left
-/// out lies within the hull of the others; Usage for fewer than two folds or a negative block; Cancelled.
+/// Errors: as fitInterpolator() and buildConstrainedTin(); BadData for fewer than 10 points at different
+/// places, and when no point left out lies within the hull of the others; Usage for fewer than two folds or a
+/// negative block; Cancelled.
 [[nodiscard]] Result<CrossValidation> crossValidate(const std::vector<Eigen::Vector3d>& points_m,
                                                     const std::vector<double>& sigmas_m,
                                                     const InterpolationOptions& interpolation,

@@ -71,7 +71,8 @@ Result<InterpolatorPointer> fit(InterpolationMethod method, const std::vector<Ei
         case InterpolationMethod::Nearest:
             return makeNearest(placedHeights(points_m, {}).points_m);
         case InterpolationMethod::Kriging:
-            return makeKriging(placedHeights(points_m, sigmas_m), options.kriging_neighbours, progress, stop);
+            return makeKriging(placedHeights(points_m, sigmas_m), options.kriging_neighbours,
+                               options.learn_variance, progress, stop);
         case InterpolationMethod::BSpline:
             return makeBSpline(placedHeights(points_m, {}).points_m, options.b_spline_spacing, progress,
                                stop);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "survey/elevation_grid.hpp"
 #include "survey/progress.hpp"
 #include "survey/result.hpp"
+#include "survey/trajectory.hpp"
 
 namespace terrawalk {
 
@@ -44,6 +46,8 @@ struct InterpolationOptions {
     std::size_t idw_neighbours = 12;
     double idw_power = 2.0;
     std::size_t kriging_neighbours = 16;
+    /// Whether kriging's variance is brought to the errors at points left out; heights stay as they are.
+    bool learn_variance = false;
     /// Control lattices are refined until their spacing is not above this share of the mean point spacing.
     double b_spline_spacing = 0.5;
 };
@@ -52,6 +56,15 @@ struct InterpolationOptions {
 struct HeightEstimate {
     double height_m = std::numeric_limits<double>::quiet_NaN();
     double variance_m2 = std::numeric_limits<double>::quiet_NaN();  ///< only of methods that have one
+};
+
+/// What a method's variance was multiplied with, part by part, so that it is what was seen at points that
+/// were foretold from the others.
+struct VarianceScale {
+    double noise = 1.0;                ///< of the part that comes from the noise of heights
+    double structure = 1.0;            ///< of the part that comes from the ground between them
+    double greatest_distance_m = 0.0;  ///< from the nearest of the others, of those points
+    SigmaCoverage left_out;            ///< those points, against the variance that they taught
 };
 
 /// A surface over scattered points: one interface for all methods. Immutable; safe from any thread. Frames:
@@ -68,6 +81,8 @@ class HeightInterpolator {
     virtual void estimate(std::span<const Eigen::Vector2d> places_m,
                           std::span<HeightEstimate> estimates) const = 0;
     [[nodiscard]] virtual bool hasVariance() const { return false; }
+    /// Of a method with a variance that was to be learnt; nothing from fewer than 30 points.
+    [[nodiscard]] virtual std::optional<VarianceScale> varianceScale() const { return std::nullopt; }
 
   protected:
     HeightInterpolator() = default;

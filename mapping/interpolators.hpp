@@ -25,7 +25,8 @@ using InterpolatorPointer = std::unique_ptr<const HeightInterpolator>;
                                                       std::size_t neighbours, double power);
 [[nodiscard]] InterpolatorPointer makeNearest(std::vector<Eigen::Vector3d> points_m);
 [[nodiscard]] Result<InterpolatorPointer> makeKriging(PlacedHeights points, std::size_t neighbours,
-                                                      Progress& progress, const std::stop_token& stop);
+                                                      bool learn_variance, Progress& progress,
+                                                      const std::stop_token& stop);
 /// @param spacing  of the finest lattice, share of the mean point spacing
 [[nodiscard]] Result<InterpolatorPointer> makeBSpline(const std::vector<Eigen::Vector3d>& points_m,
                                                       double spacing, Progress& progress,

@@ -44,6 +44,12 @@ struct FreeHeightOptions {
     double greatest_height_m = 5.0;
 };
 
+/// All that a map of the space takes; the defaults of every front end.
+struct SpaceMapOptions {
+    OccupancyOptions occupancy;  ///< whoever makes the map sets the origin
+    FreeHeightOptions above;
+};
+
 /// Occupancy of the space that laser rays crossed: voxels in an octree, each with the log-odds of being
 /// occupied from the rays that ended in it or passed through it, in their order. Source: Hornung et al. 2013,
 /// "OctoMap: an efficient probabilistic 3D mapping framework based on octrees", with its default sensor model

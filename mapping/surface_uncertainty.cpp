@@ -305,12 +305,17 @@ CellSigma cellSigma(const ElevationGrid& heights, std::size_t row, std::size_t c
 Result<SurfaceUncertainty> surfaceUncertainty(const ElevationGrid& heights,
                                               const std::vector<Eigen::Vector3d>& points_m,
                                               const std::vector<TrackSigma>& track,
-                                              const InterpolationErrorModel& model, Progress& progress,
+                                              const InterpolationError& interpolation, Progress& progress,
                                               std::stop_token stop) {
     if (track.size() != points_m.size() || points_m.empty()) {
         return usageError("each point of a surface needs one sigma of the track", "");
     }
     const GridGeometry& g = heights.geometry;
+    const InterpolationErrorModel& model = interpolation.model;
+    const std::vector<float>& variances_m2 = interpolation.variances_m2;
+    if (!variances_m2.empty() && variances_m2.size() != g.size()) {
+        return usageError("each cell needs one variance of interpolation", "");
+    }
     SurfaceUncertainty result;
     try {
         const std::vector<std::uint32_t> counts = countPoints(g, points_m);
@@ -329,7 +334,10 @@ Result<SurfaceUncertainty> surfaceUncertainty(const ElevationGrid& heights,
                 tree.nearest({g.centreX(column), g.centreY(row)}, kCarryingPoints, near);
                 carrying.clear();
                 for (const Neighbour& n : near) carrying.push_back({n.squared_distance_m2, track[n.point]});
-                const CellSigma sigma = cellSigma(heights, row, column, carrying, model);
+                CellSigma sigma = cellSigma(heights, row, column, carrying, model);
+                if (!variances_m2.empty()) {
+                    sigma.interpolation_m = std::sqrt(static_cast<double>(variances_m2[cell]));
+                }
                 result.sigmas_m[cell] = static_cast<float>(sigma.total_m());
                 const bool tested = sigma.distance_m <= model.greatest_distance_m;
                 result.sources[cell] = static_cast<std::uint8_t>(

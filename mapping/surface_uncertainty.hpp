@@ -68,6 +68,14 @@ inline constexpr std::size_t kCarryingPoints = 4;  ///< as many carry a cell, wh
 [[nodiscard]] CellSigma cellSigma(const ElevationGrid& heights, std::size_t row, std::size_t column,
                                   std::span<const CarryingPoint> near, const InterpolationErrorModel& model);
 
+/// What interpolation itself adds to a height.
+struct InterpolationError {
+    InterpolationErrorModel model;
+    /// Of each cell, of a method that tells its own variance, which then counts instead of the model; empty
+    /// of the others. Of the model remains how far points left out have tested.
+    std::vector<float> variances_m2;
+};
+
 /// How a cell came to its height.
 enum class CellSource : std::uint8_t {
     None = 0,
@@ -91,11 +99,12 @@ struct SurfaceUncertainty {
 /// independent would be over-confident. The noise of the range finder and the roughness of the ground are in
 /// the interpolation error. On all of TBB's threads; the same bytes with any number.
 /// @param points_m  that carry the surface; `track` one for each
+/// @param interpolation  with no variances, or one for each cell
 /// Errors: Usage when the sizes differ; System when there is not enough memory; Cancelled.
 [[nodiscard]] Result<SurfaceUncertainty> surfaceUncertainty(const ElevationGrid& heights,
                                                             const std::vector<Eigen::Vector3d>& points_m,
                                                             const std::vector<TrackSigma>& track,
-                                                            const InterpolationErrorModel& model,
+                                                            const InterpolationError& interpolation,
                                                             Progress& progress, std::stop_token stop);
 
 }  // namespace terrawalk

@@ -1,5 +1,9 @@
 #include "survey/survey_report.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace terrawalk {
 
 std::string_view name(Stage stage) {
@@ -48,6 +52,25 @@ std::string_view name(GroundCover cover) {
             return "vegetated";
     }
     return {};
+}
+
+std::vector<std::pair<std::string, std::string>> inWords(const OccupancySummary& o) {
+    const auto share = [&](std::size_t n) {
+        return 100.0 * static_cast<double>(n) / static_cast<double>(std::max<std::size_t>(1, o.ground_cells));
+    };
+    return {
+        {"Rays", fmt::format("{}; {} ground points left out, {} of them below the ground", o.rays, o.left_out,
+                             o.below_ground)},
+        {"Space",
+         fmt::format("{:.1f} m3 free, {:.1f} m3 occupied, in voxels of {:g} m about {:.0f} {:.0f} "
+                     "{:.0f}",
+                     o.free_m3, o.occupied_m3, o.voxel_m, o.origin_m.x(), o.origin_m.y(), o.origin_m.z())},
+        {"Free",
+         fmt::format("right above the ground in {} of {} cells ({:.1f} %), there to {:.2f} m "
+                     "(median)",
+                     o.cells_known_free, o.ground_cells, share(o.cells_known_free), o.median_free_height_m)},
+        {"Obstacles", fmt::format("above the ground in {} cells ({:.1f} %)", o.cells_with_obstacle,
+                                  share(o.cells_with_obstacle))}};
 }
 
 }  // namespace terrawalk

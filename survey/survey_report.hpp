@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "survey/ground_point.hpp"
@@ -35,7 +36,9 @@ struct ErrorStatistics {
     double error95_m = 0.0;  ///< 95 % are
     double largest_m = 0.0;  ///< the difference of greatest magnitude, with its sign
     /// 95 % intervals by bootstrap over the marks, seeded; they need 5 marks.
-    std::optional<ConfidenceInterval> rmse_95, median_95, nmad_95, error95_95;
+    std::optional<ConfidenceInterval> rmse_95, median_95, nmad_95;
+    /// By order statistics, which need 72 marks.
+    std::optional<ConfidenceInterval> error95_95;
 };
 
 enum class Stage {
@@ -196,10 +199,12 @@ struct UncertaintySummary {
     double error95_m = 0.0;                                        ///< 95 % of the cells have a smaller sigma
     std::size_t measured = 0, interpolated = 0, extrapolated = 0;  ///< cells, see CellSource
     /// Squared error of interpolation at distance d and slope s: c0 / 3 + c1 d + c2 d^2 + (c3 d + c4 d^2)
-    /// s^2.
+    /// s^2. Zeros where the method's own variance is used.
     std::array<double, 5> coefficients{};
-    double greatest_distance_m = 0.0;  ///< from a point, of the points left out
-    SigmaCoverage left_out;            ///< the points left out against the model that they taught
+    bool own_variance = false;         ///< whether the method's own variance is used, see the notes
+    double at_point_m = 0.0;           ///< error of interpolation where a point lies, one sigma
+    double greatest_distance_m = 0.0;  ///< from a point, of what the errors were learnt from
+    SigmaCoverage left_out;            ///< the points left out against what they taught
 };
 
 struct SurfaceReport {
@@ -224,6 +229,26 @@ struct SurfaceReport {
     std::string crs;             ///< human-readable name of the map frame
     std::string vertical_datum;  ///< what the heights refer to
 };
+
+/// The space above the ground that the laser crossed.
+struct OccupancySummary {
+    double voxel_m = 0.0;
+    double greatest_range_m = 0.0;
+    double ground_layer_m = 0.0;                         ///< what lies lower above the DEM counts as ground
+    double greatest_height_m = 0.0;                      ///< how far up was looked
+    Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();  ///< map coordinates of the octree's zero
+    std::size_t rays = 0;
+    std::size_t left_out = 0;      ///< ground points without a sound range, position or epoch
+    std::size_t below_ground = 0;  ///< of them hits below the DEM by more than the ground layer
+    double free_m3 = 0.0;
+    double occupied_m3 = 0.0;
+    std::size_t ground_cells = 0;
+    std::size_t cells_known_free = 0;   ///< with free space right above the ground layer
+    double median_free_height_m = 0.0;  ///< of those cells
+    std::size_t cells_with_obstacle = 0;
+};
+/// What all texts say of it, line by line: a word, and what is to be told.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> inWords(const OccupancySummary& summary);
 
 /// How parameters of the fusion were tuned, where they were.
 struct TuningRecord {
@@ -258,6 +283,7 @@ struct SurveyReport {
     std::vector<RunReport> runs;
     std::optional<AdjustmentSummary> adjustment;  ///< of all runs, by method terrawalk
     SurfaceReport surface;
+    std::optional<OccupancySummary> occupancy;  ///< where it was asked for
     std::optional<TuningRecord> tuning;
     std::optional<ReliefPicture> relief;  ///< of the surface, under the map; not part of report.json
     std::vector<ControlMark> marks;

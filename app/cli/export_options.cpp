@@ -20,12 +20,12 @@ void addOccupancyOptions(CLI::App& command, OccupancyRequest& r) {
                             const char* meaning) {
         command.add_option(option, value, meaning)->check(CLI::Range(least, greatest))->capture_default_str();
     };
-    number("--voxel", r.options.voxel_m, 0.01, 10.0, "Side of a voxel, m");
-    number("--greatest-range", r.options.greatest_range_m, 0.1, 1000.0,
+    number("--voxel", r.map.occupancy.voxel_m, 0.01, 10.0, "Side of a voxel, m");
+    number("--greatest-range", r.map.occupancy.greatest_range_m, 0.1, 1000.0,
            "Of a longer ray the first part counts as free, its hit for nothing, m");
-    number("--ground-layer", r.above.ground_layer_m, 0.0, 5.0,
+    number("--ground-layer", r.map.above.ground_layer_m, 0.0, 5.0,
            "What lies lower above the DEM counts as ground, m");
-    number("--greatest-height", r.above.greatest_height_m, 0.1, 100.0, "How far up to look, m");
+    number("--greatest-height", r.map.above.greatest_height_m, 0.1, 100.0, "How far up to look, m");
 }
 
 }  // namespace terrawalk

@@ -520,6 +520,18 @@ std::vector<Parameter> surfaceParameters() {
         flag("surface.multiband",
              "write dem_multiband.tif as well: heights and standard errors, bands in the order of BAG",
              TERRAWALK_FIELD(surface.multiband)),
+        flag("surface.occupancy.use",
+             "map the space above the ground that the laser crossed (OctoMap) as well",
+             TERRAWALK_FIELD(surface.map_space)),
+        number("surface.occupancy.voxel_m", 0.01, 10, "side of a voxel",
+               TERRAWALK_FIELD(surface.space.occupancy.voxel_m)),
+        number("surface.occupancy.greatest_range_m", 0.1, 1000,
+               "of a longer ray the first part counts as free, its hit for nothing",
+               TERRAWALK_FIELD(surface.space.occupancy.greatest_range_m)),
+        number("surface.occupancy.ground_layer_m", 0, 5, "what lies lower above the DEM counts as ground",
+               TERRAWALK_FIELD(surface.space.above.ground_layer_m)),
+        number("surface.occupancy.greatest_height_m", 0.1, 100, "how far up to look",
+               TERRAWALK_FIELD(surface.space.above.greatest_height_m)),
         number("report.nearest_sample_limit_m", 0.01, 1e4,
                "marks farther from any ground point are not compared with one",
                TERRAWALK_FIELD(report.nearest_sample_limit_m)),
@@ -769,7 +781,7 @@ static_assert(sizeof(FusionOptions) == 1224, "add the new option to fusionParame
 static_assert(sizeof(AukfOptions) == 168, "add the new option to aukfParameters()");
 static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
 static_assert(sizeof(PointCleaningOptions) == 104, "add the new option to cleaningParameters()");
-static_assert(sizeof(SurfaceOptions) == 160, "add the new option to surfaceParameters()");
+static_assert(sizeof(SurfaceOptions) == 224, "add the new option to surfaceParameters()");
 
 const std::vector<Parameter>& parameters() {
     static const std::vector<Parameter> kParameters = [] {

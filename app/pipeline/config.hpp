@@ -12,6 +12,7 @@
 #include "mapping/ground_points.hpp"
 #include "mapping/height_interpolator.hpp"
 #include "mapping/point_cleaning.hpp"
+#include "mapping/space_occupancy.hpp"
 #include "mapping/terrace_edges.hpp"
 #include "survey/result.hpp"
 #include "survey/survey_edits.hpp"
@@ -31,7 +32,9 @@ struct SurfaceOptions {
     TerraceEdgeUse terrace_edges = TerraceEdgeUse::Auto;
     bool cross_validate = true;  ///< methods are compared even where one is named
     double cell_m = 0.0;         ///< of the DEM; 0: from the density of the points
-    bool multiband = false;      ///< heights and their standard errors in one file as well
+    bool map_space = false;      ///< the space above the ground that the laser crossed as well
+    SpaceMapOptions space;
+    bool multiband = false;  ///< heights and their standard errors in one file as well
 };
 
 struct ReportOptions {

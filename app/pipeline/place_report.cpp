@@ -73,9 +73,14 @@ void addSigma(const Products& products, const SurveyMap& map, std::size_t cell, 
               std::sqrt(0.5 * (point.sigma_e_m * point.sigma_e_m + point.sigma_n_m * point.sigma_n_m))}});
     }
     const InterpolationErrorModel model = modelOf(*summary);
-    const CellSigma sigma = cellSigma(products.dem, row, column, carrying, model);
+    CellSigma sigma = cellSigma(products.dem, row, column, carrying, model);
     const double share = trackShare(products, products.ground_points[near.front().point]);
     place.sigma_m = products.uncertainty->sigmas_m[cell];
+    if (summary->own_variance) {  // what the track does not account for is the method's own
+        const double own_m2 =
+            *place.sigma_m * *place.sigma_m - sigma.track_m * sigma.track_m - sigma.lean_m * sigma.lean_m;
+        sigma.interpolation_m = std::sqrt(std::max(0.0, own_m2));
+    }
     place.density_per_m2 = products.uncertainty->density_per_m2[cell];
     place.source = static_cast<CellSource>(products.uncertainty->sources[cell]);
     place.slope = sigma.slope;
@@ -84,7 +89,7 @@ void addSigma(const Products& products, const SurveyMap& map, std::size_t cell, 
                              sigma.lean_m * std::sqrt(1.0 - share), sigma.interpolation_m};
     // Two passes with errors of their own, and a point on the spot.
     const double shared = 0.5 * (sigma.track_m * sigma.track_m + sigma.lean_m * sigma.lean_m);
-    place.sigma_after_pass_m = std::sqrt(shared + model.variance_m2(0.0, sigma.slope));
+    place.sigma_after_pass_m = std::sqrt(shared + summary->at_point_m * summary->at_point_m);
 }
 
 }  // namespace

@@ -60,6 +60,18 @@ void compareTrack(const Survey& survey, const GroundTrack& track, const Pipeline
                                           {.greatest_distance_m = config.report.nearest_sample_limit_m}));
 }
 
+/// What the height of each hit that is used is off by for itself: range and tilt. The track's error, which
+/// its neighbours share, is not in it.
+std::vector<double> ownSigmas(const std::vector<GroundPoint>& points, const std::vector<FusedRun>& runs) {
+    std::vector<double> sigmas_m;
+    for (const GroundPoint& point : points) {
+        if (point.state != GroundPointState::Used) continue;
+        const double track_m2 = runs[point.run].trajectory.epochs[point.epoch].covariance(2, 2);
+        sigmas_m.push_back(std::sqrt(std::max(0.0, point.sigma_u_m * point.sigma_u_m - track_m2)));
+    }
+    return sigmas_m;
+}
+
 Result<std::vector<Eigen::Vector3d>> usedInMap(const std::vector<GroundPoint>& points,
                                                const MapProjection& projection) {
     std::vector<Eigen::Vector3d> used;
@@ -233,23 +245,25 @@ SurfaceModelOptions modelOptions(const PipelineConfig& config) {
             .seed = config.seed};
 }
 
-Result<Surface> makeSurface(const Survey& survey, const std::vector<GroundPoint>& ground_points,
-                            const SurfaceOptions& options, const SurfaceModelOptions& model,
-                            const MapProjection& projection, Progress& progress,
-                            const std::stop_token& stop) {
+Result<Surface> makeSurface(const Survey& survey, const GroundTrack& track, const SurfaceOptions& options,
+                            const SurfaceModelOptions& model, const MapProjection& projection,
+                            Progress& progress, const std::stop_token& stop) {
     PartialProgress cleaning(progress, 0.0, 0.2);
-    auto chosen = surfacePoints(survey, ground_points, options, cleaning, stop);
+    auto chosen = surfacePoints(survey, track.points, options, cleaning, stop);
     if (!chosen) return tl::unexpected(chosen.error());
     auto points = usedInMap(*chosen, projection);
     if (!points) return tl::unexpected(blaming(survey, points.error()));
     if (points->size() < 3) return tl::unexpected(noGroundPoints(survey, *chosen));
-    const SurfaceInput input{std::move(*points), {}, survey.breaklines};
+    const SurfaceInput input{std::move(*points), ownSigmas(*chosen, track.runs), survey.breaklines};
     PartialProgress triangulating(progress, 0.2, 0.4), judging(progress, 0.4, 0.9),
         fitting(progress, 0.9, 1.0);
     auto ground = triangulateGround(input, model, triangulating, stop);
     if (!ground) return tl::unexpected(blaming(survey, ground.error()));
     auto choice = chooseMethod(input, *ground, model, judging, stop);
     if (!choice) return tl::unexpected(blaming(survey, choice.error()));
+    SilentProgress silent;
+    ground = groundFor(choice->method, std::move(*ground), input, model, silent, stop);
+    if (!ground) return tl::unexpected(blaming(survey, ground.error()));
     auto fitted = SurfaceModel::fit(input, std::move(*ground), choice->method, model, fitting, stop);
     if (!fitted) return tl::unexpected(blaming(survey, fitted.error()));
     return Surface{std::move(*chosen), input.points_m.size(), std::move(*fitted), std::move(*choice)};
@@ -306,6 +320,7 @@ SurfaceReport reportSurface(const Surface& surface, const PipelineConfig& config
     report.terrace_edges = summaryOf(ground.terrace_edges);
     report.notes = ground.notes;
     if (!surface.choice.note.empty()) report.notes.push_back(surface.choice.note);
+    if (const auto& scale = surface.model.varianceScale()) report.notes.push_back(inWords(*scale));
     report.points = surface.carrying_points;
     report.triangles = ground.mesh.triangles.size();
     report.longest_edge_m = ground.longest_edge_m;
@@ -336,16 +351,34 @@ Result<void> checkBreaklines(const Survey& survey, const PipelineConfig& config,
 }
 
 struct GridUncertainty {
-    InterpolationErrorModel model;
+    InterpolationError interpolation;
     SurfaceUncertainty cells;
 };
 
-/// Standard errors of the DEM, from the tracks' covariances and from what left-out points say of
-/// interpolation.
+/// The variance that the method tells, where it tells one; else what left-out points say of it.
+Result<InterpolationError> interpolationError(const Surface& surface, std::vector<float> variances_m2,
+                                              const std::vector<Eigen::Vector3d>& points_m,
+                                              const PipelineConfig& config, Progress& progress,
+                                              const std::stop_token& stop) {
+    InterpolationError error;
+    if (const auto& scale = surface.model.varianceScale()) {
+        error.model.greatest_distance_m = scale->greatest_distance_m;
+        error.model.left_out = scale->left_out;
+        error.variances_m2 = std::move(variances_m2);
+        return error;
+    }
+    auto model = learnInterpolationError(surface.model.method(), points_m, {},
+                                         modelOptions(config).interpolation, config.seed, progress, stop);
+    if (!model) return tl::unexpected(model.error());
+    error.model = *model;
+    return error;
+}
+
+/// Standard errors of the DEM, from the tracks' covariances and the error of interpolation.
 Result<GridUncertainty> uncertaintyOf(const Surface& surface, const std::vector<FusedRun>& runs,
-                                      const ElevationGrid& dem, const PipelineConfig& config,
-                                      const MapProjection& projection, Progress& progress,
-                                      const std::stop_token& stop) {
+                                      const ElevationGrid& dem, std::vector<float> variances_m2,
+                                      const PipelineConfig& config, const MapProjection& projection,
+                                      Progress& progress, const std::stop_token& stop) {
     const auto points = usedInMap(surface.ground_points, projection);
     if (!points) return tl::unexpected(points.error());
     std::vector<TrackSigma> track;
@@ -357,12 +390,23 @@ Result<GridUncertainty> uncertaintyOf(const Surface& surface, const std::vector<
              std::sqrt(0.5 * (point.sigma_e_m * point.sigma_e_m + point.sigma_n_m * point.sigma_n_m))});
     }
     PartialProgress learning(progress, 0.0, 0.8), propagating(progress, 0.8, 1.0);
-    auto model = learnInterpolationError(surface.model.method(), *points, {},
-                                         modelOptions(config).interpolation, config.seed, learning, stop);
-    if (!model) return tl::unexpected(model.error());
-    auto cells = surfaceUncertainty(dem, *points, track, *model, propagating, stop);
+    auto error = interpolationError(surface, std::move(variances_m2), *points, config, learning, stop);
+    if (!error) return tl::unexpected(error.error());
+    auto cells = surfaceUncertainty(dem, *points, track, *error, propagating, stop);
     if (!cells) return tl::unexpected(cells.error());
-    return GridUncertainty{*model, std::move(*cells)};
+    return GridUncertainty{std::move(*error), std::move(*cells)};
+}
+
+/// One sigma of interpolation where a point lies.
+double errorAtPoint(const GridUncertainty& uncertainty) {
+    const InterpolationError& error = uncertainty.interpolation;
+    if (error.variances_m2.empty()) return std::sqrt(error.model.variance_m2(0.0, 0.0));
+    std::vector<double> measured;
+    for (std::size_t i = 0; i < error.variances_m2.size(); ++i) {
+        const auto source = static_cast<CellSource>(uncertainty.cells.sources[i]);
+        if (source == CellSource::Measured) measured.push_back(error.variances_m2[i]);
+    }
+    return measured.empty() ? 0.0 : std::sqrt(median(std::move(measured)));
 }
 
 UncertaintySummary summaryOf(const GridUncertainty& uncertainty) {
@@ -382,9 +426,12 @@ UncertaintySummary summaryOf(const GridUncertainty& uncertainty) {
         if (kind == CellSource::Interpolated) ++summary.interpolated;
         if (kind == CellSource::Extrapolated) ++summary.extrapolated;
     }
-    summary.coefficients = uncertainty.model.coefficients;
-    summary.greatest_distance_m = uncertainty.model.greatest_distance_m;
-    summary.left_out = uncertainty.model.left_out;
+    const InterpolationErrorModel& model = uncertainty.interpolation.model;
+    summary.coefficients = model.coefficients;
+    summary.own_variance = !uncertainty.interpolation.variances_m2.empty();
+    summary.at_point_m = errorAtPoint(uncertainty);
+    summary.greatest_distance_m = model.greatest_distance_m;
+    summary.left_out = model.left_out;
     return summary;
 }
 
@@ -405,7 +452,7 @@ Result<Comparison> compareBeforeFusion(const Survey& survey, const PipelineConfi
     SurfaceModelOptions model = modelOptions(config);
     model.method = method;
     model.cross_validate = false;
-    const auto surface = makeSurface(survey, track->points, config.surface, model, projection, silent, stop);
+    const auto surface = makeSurface(survey, *track, config.surface, model, projection, silent, stop);
     if (surface) {
         comparison.add(
             {surfaceResiduals(survey.marks, heightOf(surface->model, projection), Stage::BeforeFusion, {})
@@ -480,14 +527,17 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     if (auto checked = checkBreaklines(survey, config, *projection); !checked) {
         return tl::unexpected(checked.error());
     }
+    if (config.surface.map_space) {
+        if (auto fits = checkOptions(config.surface.space); !fits) return tl::unexpected(fits.error());
+    }
     PartialProgress fusing(progress, 0.0, 0.5);
     auto fused = trackGround(survey, config.fusion, config.ground, fusing, stop);
     if (!fused) return tl::unexpected(fused.error());
 
     PartialProgress modelling(progress, 0.5, 0.7);
     progress.report(0.5, "making the surface");
-    auto surface = makeSurface(survey, fused->points, config.surface, modelOptions(config), *projection,
-                               modelling, stop);
+    auto surface =
+        makeSurface(survey, *fused, config.surface, modelOptions(config), *projection, modelling, stop);
     if (!surface) return tl::unexpected(surface.error());
     const GroundTriangles& ground = surface->model.ground();
 
@@ -514,9 +564,9 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     auto dem = surface->model.grid(*geometry, gridding, stop);
     if (!dem) return tl::unexpected(dem.error());
     products.dem = std::move(dem->heights);
-    PartialProgress propagating(progress, 0.9, 1.0);
-    auto uncertainty =
-        uncertaintyOf(*surface, fused->runs, products.dem, config, *projection, propagating, stop);
+    PartialProgress propagating(progress, 0.9, 0.97), mapping(progress, 0.97, 1.0);
+    auto uncertainty = uncertaintyOf(*surface, fused->runs, products.dem, std::move(dem->variances_m2),
+                                     config, *projection, propagating, stop);
     if (!uncertainty && uncertainty.error().kind != ErrorKind::BadData) {
         return tl::unexpected(uncertainty.error());
     }
@@ -591,6 +641,13 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
             for (SensorConsistency& sums : run.consistency) run.innovations.push_back({std::move(sums), {}});
         }
         products.innovations.push_back(std::move(run.innovations));
+    }
+    if (config.surface.map_space) {
+        auto space = mapSpace(products.ground_points, products.trajectories, *projection, products.dem,
+                              config.surface.space, mapping, stop);
+        if (!space) return tl::unexpected(blaming(survey, space.error()));
+        report.occupancy = space->summary;
+        products.space = std::make_shared<const SpaceMap>(std::move(*space));
     }
     progress.report(1.0, "processed");
     return products;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <stop_token>
 #include <string>
 #include <vector>
 
 #include "app/pipeline/config.hpp"
+#include "app/pipeline/space_map.hpp"
 #include "io/output_folder.hpp"
 #include "mapping/surface_uncertainty.hpp"
 #include "mapping/terrace_edges.hpp"
@@ -29,6 +31,7 @@ struct Products {
     ElevationGrid dem;                                        ///< map frame
     std::optional<SurfaceUncertainty> uncertainty;            ///< of the DEM, cell by cell
     std::vector<TerraceEdge> terrace_edges;                   ///< found in the points; map frame
+    std::shared_ptr<const SpaceMap> space;                    ///< where it was asked for
     std::string crs_wkt2;
     SurveyReport report;
     PipelineConfig used;  ///< the configuration with every choice that the pipeline made filled in
@@ -45,7 +48,8 @@ struct Provenance {
 };
 
 /// Writes dem.tif with its styles for QGIS, dem_uncertainty.tif, dem_density.tif, dem_source.tif,
-/// surface.ply, surface.obj, terrace_edges.gpkg where any were found, trajectory/*.csv, ground_points.csv,
+/// surface.ply, surface.obj, terrace_edges.gpkg where any were found, the files of spaceWriters() where the
+/// space was mapped, trajectory/*.csv, ground_points.csv,
 /// residuals.csv, report.json, report.html, figures.txt and manifest.json. The caller commits the folder.
 [[nodiscard]] Result<void> writeProducts(const Survey& survey, const Products& products,
                                          const Provenance& provenance, OutputFolder& folder,

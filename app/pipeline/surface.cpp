@@ -159,10 +159,12 @@ Result<GridGeometry> geometryOf(const SurfaceRequest& request, const GroundTrian
 /// Points and surface end with this function: writing needs their memory.
 Result<InterpolatedGrid> gridOf(SurfaceInput input, GroundTriangles ground, const GridGeometry& geometry,
                                 InterpolationMethod method, const SurfaceModelOptions& options,
-                                Progress& progress, const std::stop_token& stop) {
+                                std::vector<std::string>& notes, Progress& progress,
+                                const std::stop_token& stop) {
     PartialProgress fitting(progress, 0.0, 0.5), gridding(progress, 0.5, 1.0);
     const auto surface = SurfaceModel::fit(input, std::move(ground), method, options, fitting, stop);
     if (!surface) return tl::unexpected(surface.error());
+    if (const auto& scale = surface->varianceScale()) notes.push_back(inWords(*scale));
     if (method == InterpolationMethod::Linear) input = {};  // the triangles hold all of it
     return surface->grid(geometry, gridding, stop);
 }
@@ -339,13 +341,9 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
     PartialProgress triangulating(progress, 0.25, 0.35);
     auto ground = triangulateGround(input, model, triangulating, stop);
     if (!ground) return tl::unexpected(ground.error());
-    report.longest_edge = ground->longest_edge_m;
     report.points_used = input.points_m.size();
-    report.terrace_edges = summaryOf(ground->terrace_edges);
-    report.notes.insert(report.notes.end(), ground->notes.begin(), ground->notes.end());
-    const auto geometry = geometryOf(request, *ground);
+    auto geometry = geometryOf(request, *ground);
     if (!geometry) return tl::unexpected(geometry.error());
-    report.geometry = *geometry;
 
     // Before the long work: whether kriging, with its variances, will be chosen is not known yet.
     const bool variances = !model.method || *model.method == InterpolationMethod::Kriging;
@@ -363,15 +361,25 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
     PartialProgress judging(progress, 0.35, 0.7);
     auto choice = chooseMethod(input, *ground, model, judging, stop);
     if (!choice) return tl::unexpected(choice.error());
+    SilentProgress silent;
+    ground = groundFor(choice->method, std::move(*ground), input, model, silent, stop);
+    if (!ground) return tl::unexpected(ground.error());
+    geometry = geometryOf(request, *ground);
+    if (!geometry) return tl::unexpected(geometry.error());
+    report.geometry = *geometry;
+    report.longest_edge = ground->longest_edge_m;
+    report.terrace_edges = summaryOf(ground->terrace_edges);
+    report.notes.insert(report.notes.end(), ground->notes.begin(), ground->notes.end());
     report.method = choice->method;
     report.validation = std::move(choice->validation);
     if (!choice->note.empty()) report.notes.push_back(choice->note);
-    if (report.validation && ground->constrained) {
+    if (report.validation && ground->constrained && (model.method || !input.breaklines.empty())) {
         report.notes.emplace_back("the cross-validation is of the points without the breaklines");
     }
     const std::vector<TerraceEdge> edges = std::move(ground->terrace_edges);
     PartialProgress fitting(progress, 0.7, 0.9);
-    auto grid = gridOf(std::move(input), std::move(*ground), *geometry, report.method, model, fitting, stop);
+    auto grid = gridOf(std::move(input), std::move(*ground), *geometry, report.method, model, report.notes,
+                       fitting, stop);
     if (!grid) return tl::unexpected(grid.error());
     summarize(grid->heights, report);
     progress.report(0.9, "writing");

@@ -56,10 +56,6 @@ Result<GroundTriangles> alongLines(const std::vector<Eigen::Vector3d>& points_m,
 
 }  // namespace
 
-bool followsBreaklines(InterpolationMethod method) {
-    return method == InterpolationMethod::Linear || method == InterpolationMethod::CloughTocher;
-}
-
 Result<void> checkMethod(const SurfaceModelOptions& options, bool breaklines_given) {
     if (!breaklines_given || !options.method || followsBreaklines(*options.method)) return {};
     return usageError(fmt::format("method {} cannot follow breaklines", name(*options.method)),
@@ -118,8 +114,10 @@ Result<MethodChoice> chooseMethod(const SurfaceInput& input, const GroundTriangl
         // A method that was named is judged beside the plain one.
         judged.methods = {InterpolationMethod::Linear};
         if (*options.method != InterpolationMethod::Linear) judged.methods.push_back(*options.method);
-    } else if (ground.constrained) {
+    } else if (!input.breaklines.empty()) {
         judged.methods = {InterpolationMethod::Linear, InterpolationMethod::CloughTocher};
+    } else {
+        judged.breaklines = softBreaklines(ground.terrace_edges);
     }
     auto validation =
         crossValidate(input.points_m, input.sigmas_m, options.interpolation, judged, progress, stop);
@@ -133,20 +131,45 @@ Result<MethodChoice> chooseMethod(const SurfaceInput& input, const GroundTriangl
     return choice;
 }
 
+std::string inWords(const VarianceScale& scale) {
+    return fmt::format(
+        "variance of the method: noise times {:.2f}, structure times {:.2f}, learnt from {} points left out",
+        scale.noise, scale.structure, scale.left_out.n);
+}
+
+Result<GroundTriangles> groundFor(InterpolationMethod method, GroundTriangles ground,
+                                  const SurfaceInput& input, const SurfaceModelOptions& options,
+                                  Progress& progress, std::stop_token stop) {
+    if (ground.terrace_edges.empty() || followsBreaklines(method)) return ground;
+    SurfaceModelOptions without = options;
+    without.terrace_edges = TerraceEdgeUse::Off;
+    auto plain = triangulateGround(input, without, progress, std::move(stop));
+    if (!plain) return plain;
+    plain->notes.push_back(
+        fmt::format("terrace edges found but not kept to: {}; method {}, which cannot follow them, "
+                    "foretells points left out better than those that do",
+                    ground.terrace_edges.size(), name(method)));
+    return plain;
+}
+
 SurfaceModel::SurfaceModel(GroundTriangles ground, InterpolationMethod method,
                            std::unique_ptr<const HeightInterpolator> heights)
     : ground_(std::move(ground)),
       method_(method),
       heights_(std::move(heights)),
-      locator_(std::make_unique<const LocatorOnDemand>()) {}
+      locator_(std::make_unique<const LocatorOnDemand>()) {
+    if (heights_) variance_scale_ = heights_->varianceScale();
+}
 
 Result<SurfaceModel> SurfaceModel::fit(const SurfaceInput& input, GroundTriangles ground,
                                        InterpolationMethod method, const SurfaceModelOptions& options,
                                        Progress& progress, std::stop_token stop) {
     if (method == InterpolationMethod::Linear) return SurfaceModel(std::move(ground), method, nullptr);
+    InterpolationOptions interpolation = options.interpolation;
+    interpolation.learn_variance = true;
     auto heights = ground.constrained ? fitInterpolator(method, ground.constrained)
-                                      : fitInterpolator(method, input.points_m, input.sigmas_m,
-                                                        options.interpolation, progress, stop);
+                                      : fitInterpolator(method, input.points_m, input.sigmas_m, interpolation,
+                                                        progress, stop);
     if (!heights) return tl::unexpected(heights.error());
     return SurfaceModel(std::move(ground), method, std::move(*heights));
 }

@@ -34,8 +34,6 @@ struct SurfaceModelOptions {
     double metres_per_unit = 1.0;  ///< of the points
 };
 
-/// Whether a method keeps to breaklines; the others take points alone.
-[[nodiscard]] bool followsBreaklines(InterpolationMethod method);
 /// Error Usage for a named method that cannot follow breaklines that were given.
 [[nodiscard]] Result<void> checkMethod(const SurfaceModelOptions& options, bool breaklines_given);
 
@@ -67,7 +65,10 @@ struct GroundTriangles {
                                                         const SurfaceModelOptions& options,
                                                         Progress& progress, std::stop_token stop);
 
-/// The named method, or the first of the ranking among those that can do what the ground asks.
+/// The named method, or the first of the ranking. Where breaklines were given, only methods that follow them
+/// compete. Where terrace edges were found, all do: those that follow them are judged with the edges, as they
+/// were found in all points and not anew for each part left out, which would take too long; the others
+/// without.
 struct MethodChoice {
     InterpolationMethod method = InterpolationMethod::Linear;
     std::optional<CrossValidation> validation;
@@ -76,6 +77,12 @@ struct MethodChoice {
 [[nodiscard]] Result<MethodChoice> chooseMethod(const SurfaceInput& input, const GroundTriangles& ground,
                                                 const SurfaceModelOptions& options, Progress& progress,
                                                 std::stop_token stop);
+
+/// The ground as the method can take it: without the terrace edges where it cannot follow them, and with a
+/// note that says so. Errors: as triangulateGround().
+[[nodiscard]] Result<GroundTriangles> groundFor(InterpolationMethod method, GroundTriangles ground,
+                                                const SurfaceInput& input, const SurfaceModelOptions& options,
+                                                Progress& progress, std::stop_token stop);
 
 /// A surface that can be asked for heights. Immutable; safe from any thread.
 class SurfaceModel {
@@ -90,6 +97,8 @@ class SurfaceModel {
     [[nodiscard]] InterpolationMethod method() const { return method_; }
     /// Nothing outside the ground's triangles, whatever the method.
     [[nodiscard]] std::optional<double> heightAt(double x_m, double y_m) const;
+    /// Of a method with a variance, which is scaled so.
+    [[nodiscard]] const std::optional<VarianceScale>& varianceScale() const { return variance_scale_; }
     /// Cells outside the ground's triangles stay empty.
     [[nodiscard]] Result<InterpolatedGrid> grid(const GridGeometry& geometry, Progress& progress,
                                                 std::stop_token stop) const;
@@ -102,9 +111,11 @@ class SurfaceModel {
     InterpolationMethod method_;
     std::unique_ptr<const HeightInterpolator> heights_;  ///< null for linear: the triangles tell
     std::unique_ptr<const LocatorOnDemand> locator_;
+    std::optional<VarianceScale> variance_scale_;
 };
 
 /// What the reports say of it.
+[[nodiscard]] std::string inWords(const VarianceScale& scale);
 [[nodiscard]] TerraceEdgeSummary summaryOf(const std::vector<TerraceEdge>& edges);
 [[nodiscard]] std::optional<InterpolationComparison> comparisonOf(
     const std::optional<CrossValidation>& validation);

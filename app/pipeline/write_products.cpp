@@ -201,6 +201,11 @@ Result<void> writeProducts(const Survey& survey, const Products& products, const
                                    f, stop);
         });
     }
+    if (products.space) {
+        for (auto& writer : spaceWriters(*products.space, describeDem(products, survey), stop)) {
+            writers.push_back(std::move(writer));
+        }
+    }
     for (const Trajectory& trajectory : products.trajectories) {
         writers.emplace_back("trajectory/" + trajectory.run_id + ".csv",
                              [&](const fs::path& f) { return writeTrajectoryCsv(trajectory, f); });
@@ -233,6 +238,11 @@ std::string summaryText(const Products& products) {
     if (!products.terrace_edges.empty()) {
         text += fmt::format("  edges    terrace_edges.gpkg  {} terrace edges, {:.0f} m in all\n",
                             surface.terrace_edges.count, surface.terrace_edges.length_m);
+    }
+    if (const auto& space = products.report.occupancy) {
+        for (const auto& [word, line] : inWords(*space)) {
+            if (word == "Free") text += "  space    free_height.tif  free " + line + "\n";
+        }
     }
     text += "  report   report.html\n";
     for (const KeyFigure& figure : products.report.figures) {

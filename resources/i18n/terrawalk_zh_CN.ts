@@ -742,6 +742,90 @@
             <translation>点已清理</translation>
         </message>
         <message>
+            <source>variance of the method: noise times %1, structure times %2, learnt from %3 points left out</source>
+            <translation>方法自身的方差：噪声乘以 %1，结构乘以 %2，由 %3 个留出点学得</translation>
+        </message>
+        <message>
+            <source>terrace edges found but not kept to: %1; method %2, which cannot follow them, foretells points left out better than those that do</source>
+            <translation>找到但未采用的梯田边缘：%1 条；方法 %2 不能沿边缘构面，但对留出点的预测优于能沿边缘构面的方法</translation>
+        </message>
+        <message>
+            <source>terrace edges are not looked for: method %1 cannot follow them</source>
+            <translation>不查找梯田边缘：方法 %1 不能沿边缘构面</translation>
+        </message>
+        <message>
+            <source>terrace edges are not looked for among more than %1 points</source>
+            <translation>点数超过 %1 时不查找梯田边缘</translation>
+        </message>
+        <message>
+            <source>placing rays</source>
+            <translation>放置激光射线</translation>
+        </message>
+        <message>
+            <source>following laser rays</source>
+            <translation>追踪激光射线</translation>
+        </message>
+        <message>
+            <source>obstacles</source>
+            <translation>查找障碍物</translation>
+        </message>
+        <message>
+            <source>free height</source>
+            <translation>计算空闲高度</translation>
+        </message>
+        <message>
+            <source>no ground point has a sound ray</source>
+            <translation>没有地面点带有可靠的激光射线</translation>
+        </message>
+        <message>
+            <source>the ground layer must lie below the greatest height</source>
+            <translation>地面层必须低于最大高度</translation>
+        </message>
+        <message>
+            <source>Space above the ground</source>
+            <translation>地面以上空间</translation>
+        </message>
+        <message>
+            <source>Rays</source>
+            <translation>射线</translation>
+        </message>
+        <message>
+            <source>Space</source>
+            <translation>空间</translation>
+        </message>
+        <message>
+            <source>Free</source>
+            <translation>空闲</translation>
+        </message>
+        <message>
+            <source>Obstacles</source>
+            <translation>障碍物</translation>
+        </message>
+        <message>
+            <source>%1; %2 ground points left out, %3 of them below the ground</source>
+            <translation>%1 条；舍去 %2 个地面点，其中 %3 个低于地面</translation>
+        </message>
+        <message>
+            <source>%1 m3 free, %2 m3 occupied, in voxels of %3 m about %4 %5 %6</source>
+            <translation>空闲 %1 m3，占用 %2 m3，体素 %3 m，原点 %4 %5 %6</translation>
+        </message>
+        <message>
+            <source>right above the ground in %1 of %2 cells (%3 %), there to %4 m (median)</source>
+            <translation>%2 个格网中有 %1 个（%3 %）紧贴地面处空闲，其中位高度 %4 m</translation>
+        </message>
+        <message>
+            <source>above the ground in %1 cells (%2 %)</source>
+            <translation>地面以上有障碍物的格网 %1 个（%2 %）</translation>
+        </message>
+        <message>
+            <source>not determined with %1 marks</source>
+            <translation>%1 个标志点不足以确定</translation>
+        </message>
+        <message>
+            <source>not determined with %1 mark</source>
+            <translation>%1 个标志点不足以确定</translation>
+        </message>
+        <message>
             <source>looking for terrace edges</source>
             <translation>查找梯田边缘</translation>
         </message>
@@ -1779,6 +1863,26 @@
         <message>
             <source>multiband</source>
             <translation>多波段文件</translation>
+        </message>
+        <message>
+            <source>occupancy use</source>
+            <translation>绘制地面以上空间</translation>
+        </message>
+        <message>
+            <source>occupancy voxel</source>
+            <translation>体素边长</translation>
+        </message>
+        <message>
+            <source>occupancy greatest range</source>
+            <translation>空间图最大测距</translation>
+        </message>
+        <message>
+            <source>occupancy ground layer</source>
+            <translation>地面层厚度</translation>
+        </message>
+        <message>
+            <source>occupancy greatest height</source>
+            <translation>空间图最大高度</translation>
         </message>
         <message>
             <source>nearest sample limit</source>

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -73,6 +74,54 @@ TEST(OccupancyCommand, FindsABranchAboveTheGroundOfASurvey) {
         near_half += height > 0.35F && height < 0.65F ? 1 : 0;
     }
     EXPECT_GT(near_half, 3U);
+}
+
+TEST(OccupancyCommand, GivesWhatProcessGivesWhenAsked) {
+    const TemporaryFolder scratch;
+    const fs::path out = scratch / "out";
+    ASSERT_EQ(terrawalk({"process", quickPlot().string(), "-o", out.string(), "--quiet", "--set",
+                         "surface.occupancy.use=true", "--set", "surface.occupancy.voxel_m=0.2"})
+                  .exit_code,
+              0);
+    const json report = json::parse(bytesOf(out / "report.json")).at("occupancy");
+    const auto products = json::parse(bytesOf(out / "manifest.json")).at("products");
+    for (const char* file : {"occupancy.bt", "occupancy.ot", "free_height.tif"}) {
+        EXPECT_TRUE(fs::exists(out / file)) << file;
+        EXPECT_THAT(products, testing::Contains(file));
+    }
+    const bool obstacles = report.at("cells_with_obstacle").get<int>() > 0;
+    EXPECT_EQ(fs::exists(out / "obstacle_height.tif"), obstacles);
+    const std::string html = bytesOf(out / "report.html");
+    EXPECT_THAT(html, HasSubstr("Space above the ground"));
+    EXPECT_THAT(html, HasSubstr(fmt::format("in {} of {} cells", report.at("cells_known_free").get<int>(),
+                                            report.at("ground_cells").get<int>())));
+    EXPECT_THAT(bytesOf(out / "figures.txt"), HasSubstr("free_height.tif"));
+
+    // The command reads places and heights that were rounded when they were written: a ray may fall into the
+    // next voxel.
+    const auto after = terrawalk({"occupancy", out.string(), "--voxel", "0.2", "--json", "--quiet"});
+    ASSERT_EQ(after.exit_code, 0) << after.err;
+    const json told = json::parse(after.out);
+    for (const auto& [key, value] : report.items()) {
+        ASSERT_TRUE(told.contains(key)) << key;
+        if (value.is_number_float()) {
+            EXPECT_NEAR(told.at(key).get<double>(), value.get<double>(), 0.01 * std::abs(value.get<double>()))
+                << key;
+        } else if (key != "cells_known_free" && key != "cells_with_obstacle") {
+            EXPECT_EQ(told.at(key), value) << key;
+        }
+    }
+
+    EXPECT_EQ(
+        terrawalk({"process", quickPlot().string(), "-o", (scratch / "bad").string(), "--quiet", "--set",
+                   "surface.occupancy.use=true", "--set", "surface.occupancy.greatest_height_m=0.2"})
+            .exit_code,
+        2);
+    const fs::path plain = scratch / "plain";
+    ASSERT_EQ(terrawalk({"process", quickPlot().string(), "-o", plain.string(), "--quiet"}).exit_code, 0);
+    EXPECT_TRUE(json::parse(bytesOf(plain / "report.json")).at("occupancy").is_null());
+    EXPECT_FALSE(fs::exists(plain / "occupancy.bt"));
+    EXPECT_EQ(bytesOf(plain / "dem.tif"), bytesOf(out / "dem.tif"));
 }
 
 TEST(OccupancyCommand, SaysWhatIsWrong) {

@@ -150,14 +150,20 @@ TEST(Report, CsvJsonAndPageTellTheSameNumbers) {
                                         threeDecimals(told["rmse_95_m"][1]),
                                     metres("mae_m"), metres("largest_m")))
                 << id;
+            EXPECT_EQ(told["error95_95_m"].is_null(), s.marks < 72);
+            EXPECT_EQ(told["error95_95_note"],
+                      s.marks < 72 ? nlohmann::json(fmt::format("not determined with {} marks", s.marks))
+                                   : nlohmann::json(nullptr));
             const auto interval = [&](const char* key) {
                 return no_negative_zero(threeDecimals(told[key][0])) + " \u2026 " +
                        no_negative_zero(threeDecimals(told[key][1]));
             };
-            EXPECT_THAT(htmlRow(html, id + "-robust"),
-                        ElementsAre(axis, no_negative_zero(metres("median_m")), interval("median_95_m"),
-                                    metres("nmad_m"), interval("nmad_95_m"), metres("error68_m"),
-                                    metres("error95_m"), interval("error95_95_m")))
+            EXPECT_THAT(
+                htmlRow(html, id + "-robust"),
+                ElementsAre(axis, no_negative_zero(metres("median_m")), interval("median_95_m"),
+                            metres("nmad_m"), interval("nmad_95_m"), metres("error68_m"), metres("error95_m"),
+                            told["error95_95_m"].is_null() ? told["error95_95_note"].get<std::string>()
+                                                           : interval("error95_95_m")))
                 << id;
         }
     }
@@ -539,7 +545,7 @@ TEST(ReportJson, KeysStandInTheirOrderAndMissingIsNull) {
     EXPECT_THAT(keys, ElementsAre("format", "survey", "program_version", "method", "seed", "figures",
                                   "statements", "limitations", "warnings", "headline", "accuracy", "strata",
                                   "slope_leakage", "residuals", "missing_residuals", "marks", "adjustment",
-                                  "surface", "runs", "tuning", "settings", "inputs"));
+                                  "surface", "occupancy", "runs", "tuning", "settings", "inputs"));
     EXPECT_TRUE(json["tuning"].is_null());
     EXPECT_EQ(json["format"], "terrawalk-report 1");
     EXPECT_TRUE(json["residuals"][0]["difference_enu_m"][0].is_null());

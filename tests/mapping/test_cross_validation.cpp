@@ -69,6 +69,24 @@ TEST(CrossValidation, LeavesOutOneByOne) {
     }
 }
 
+TEST(CrossValidation, KeepsToBreaklinesWhereAMethodFollowsThem) {
+    // A step of two metres within two decimetres, and its toe and top edge as lines.
+    Points points = test::randomPoints(800, 50.0, 9);
+    for (Eigen::Vector3d& p : points) p.z() = 2.0 * std::clamp((p.x() - 24.9) / 0.2, 0.0, 1.0);
+    CrossValidationOptions options;
+    options.methods = {Method::Linear, Method::Nearest};
+    const auto plain = validate(points, options);
+    options.breaklines = {{{{24.9, 0.5, 0.0}, {24.9, 49.5, 0.0}}, BreaklineKind::Soft, "toe"},
+                          {{{25.1, 0.5, 2.0}, {25.1, 49.5, 2.0}}, BreaklineKind::Soft, "top"}};
+    const auto along = validate(points, options);
+    ASSERT_TRUE(plain && along) << along.error().text();
+    for (const auto& [hold_out, text] : kHoldOuts) {
+        const HoldOutResult &without = resultOf(*plain, hold_out), &with = resultOf(*along, hold_out);
+        EXPECT_LT(with.scores[0].rmse_m, 0.3 * without.scores[0].rmse_m) << text;
+        EXPECT_EQ(with.scores[1].rmse_m, without.scores[1].rmse_m) << text;
+    }
+}
+
 TEST(CrossValidation, DoesNotDependOnOrderOrThreadsButOnTheSeed) {
     Points points = hills(500, 2);
     CrossValidationOptions options;

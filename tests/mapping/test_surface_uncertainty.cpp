@@ -99,8 +99,8 @@ TEST(SurfaceUncertainty, BandsHoldTheTruthOnGroundThatIsKnown) {
         const std::vector<Eigen::Vector3d> points = scattered(2500, 0.05, seed);
         const ElevationGrid dem = gridOf(points, 0.5);
         SilentProgress silent;
-        const auto u = surfaceUncertainty(dem, points, std::vector<TrackSigma>(points.size()), learnt(points),
-                                          silent, {});
+        const auto u = surfaceUncertainty(dem, points, std::vector<TrackSigma>(points.size()),
+                                          {learnt(points), {}}, silent, {});
         ASSERT_TRUE(u);
         SigmaCoverage coverage;
         for (std::size_t r = 0; r < dem.geometry.rows; ++r) {
@@ -119,14 +119,90 @@ TEST(SurfaceUncertainty, BandsHoldTheTruthOnGroundThatIsKnown) {
     }
 }
 
+// Risers of a metre every eight metres, at a slope of one; treads lean and are a little rough.
+double terraced(double x, double y) {
+    const double along = x + 1.5 * std::sin(0.1 * y);
+    const double step = std::floor(along / 8.0), in_step = along - 8.0 * step;
+    return step + std::clamp(in_step - 7.0, 0.0, 1.0) + 0.03 * y +
+           0.05 * std::sin(1.1 * x) * std::cos(0.9 * y);
+}
+
+// Passes side by side: next to one another along them, far apart across.
+std::vector<Eigen::Vector3d> alongPasses(double apart_m, std::uint64_t seed) {
+    std::mt19937_64 engine(seed);
+    std::vector<Eigen::Vector3d> points;
+    for (double y = 0.0; y < 60.0; y += apart_m) {
+        for (double x = 0.0; x < 60.0; x += 0.25) {
+            points.emplace_back(x, y + 0.3 * std::sin(0.3 * x + y) + 0.02 * normal(engine), 0.0);
+        }
+    }
+    return points;
+}
+
+using Ground = double (*)(double, double);
+
+/// Share of the true heights at places drawn by lot within 1.96 sigma of what kriging says.
+double shareHeld(std::vector<Eigen::Vector3d> points, Ground truth, double told_m, std::uint64_t seed) {
+    constexpr double kNoise_m = 0.05;
+    constexpr std::size_t kPlaces = 4000;
+    std::mt19937_64 engine(seed + 100);
+    for (Eigen::Vector3d& p : points) p.z() = truth(p.x(), p.y()) + kNoise_m * normal(engine);
+    InterpolationOptions options;
+    options.learn_variance = true;
+    SilentProgress silent;
+    const auto surface = fitInterpolator(InterpolationMethod::Kriging, points,
+                                         std::vector<double>(points.size(), told_m), options, silent, {});
+    EXPECT_TRUE(surface && (*surface)->varianceScale());
+    EXPECT_NEAR((*surface)->varianceScale()->left_out.mean_square, 1.0, 1e-6);
+    std::size_t held = 0;
+    for (const Eigen::Vector3d& check : scattered(kPlaces, 0.0, seed + 1000)) {
+        const Eigen::Vector2d place = 0.9 * check.head<2>() + Eigen::Vector2d(3.0, 3.0);  // inside the hull
+        HeightEstimate estimate;
+        (*surface)->estimate({&place, 1}, {&estimate, 1});
+        const double off_m = std::abs(estimate.height_m - truth(place.x(), place.y()));
+        held += off_m <= 1.96 * std::sqrt(estimate.variance_m2) ? 1 : 0;
+    }
+    return static_cast<double>(held) / static_cast<double>(kPlaces);
+}
+
+TEST(SurfaceUncertainty, KrigingsOwnBandsAreNeitherNarrowNorWide) {
+    for (const std::uint64_t seed : {31U, 32U}) {
+        for (const Ground truth : {rolling, terraced}) {
+            // Sigmas that are right, none, and a range finder that is twice as good as its maker says.
+            for (const double told_m : {0.05, 0.0, 0.1}) {
+                const double held = shareHeld(scattered(3000, 0.0, seed), truth, told_m, seed);
+                EXPECT_GT(held, 0.90) << seed << " " << told_m;
+                EXPECT_LT(held, 0.985) << seed << " " << told_m;
+            }
+        }
+        const double held = shareHeld(alongPasses(2.0, seed), rolling, 0.05, seed);
+        EXPECT_GT(held, 0.90) << seed << " passes";
+        EXPECT_LT(held, 0.985) << seed << " passes";
+    }
+}
+
+TEST(SurfaceUncertainty, TakesTheMethodsOwnVarianceWhereItHasOne) {
+    std::vector<Eigen::Vector3d> points = scattered(500, 0.0, 22);
+    for (Eigen::Vector3d& p : points) p.z() = 1.0;
+    const ElevationGrid dem = gridOf(points, 1.0);
+    const InterpolationError own{InterpolationErrorModel{}, std::vector<float>(dem.heights_m.size(), 0.04F)};
+    SilentProgress silent;
+    const std::vector<TrackSigma> track(points.size(), {0.15, 0.8});
+    const auto u = surfaceUncertainty(dem, points, track, own, silent, {});
+    ASSERT_TRUE(u);
+    EXPECT_NEAR(u->sigmas_m[dem.geometry.cellAt(30.0, 30.0).value()], std::hypot(0.15, 0.2), 1e-6);
+    const InterpolationError short_one{InterpolationErrorModel{}, {0.04F}};
+    EXPECT_EQ(surfaceUncertainty(dem, points, track, short_one, silent, {}).error().kind, ErrorKind::Usage);
+}
+
 TEST(SurfaceUncertainty, AddsTheTrackWithoutAveragingItAway) {
     std::vector<Eigen::Vector3d> points = scattered(2500, 0.0, 21);
     for (Eigen::Vector3d& p : points) p.z() = 0.5 * p.x();
     const ElevationGrid dem = gridOf(points, 0.5);
     const InterpolationErrorModel exact;  // of nothing but the track
     SilentProgress silent;
-    const auto u = surfaceUncertainty(dem, points, std::vector<TrackSigma>(points.size(), {0.3, 0.8}), exact,
-                                      silent, {});
+    const auto u = surfaceUncertainty(dem, points, std::vector<TrackSigma>(points.size(), {0.3, 0.8}),
+                                      {exact, {}}, silent, {});
     ASSERT_TRUE(u);
     const auto cell = dem.geometry.cellAt(30.0, 30.0);
     ASSERT_TRUE(cell);
@@ -145,7 +221,8 @@ TEST(SurfaceUncertainty, TellsWhereCellsCameFrom) {
     model.coefficients = {0.0, 0.01, 0.0, 0.0, 0.0};
     model.greatest_distance_m = 3.0;
     SilentProgress silent;
-    const auto u = surfaceUncertainty(dem, points, std::vector<TrackSigma>(points.size()), model, silent, {});
+    const auto u =
+        surfaceUncertainty(dem, points, std::vector<TrackSigma>(points.size()), {model, {}}, silent, {});
     ASSERT_TRUE(u);
     const auto source = [&](double x, double y) {
         return static_cast<CellSource>(u->sources[dem.geometry.cellAt(x, y).value()]);
@@ -158,7 +235,7 @@ TEST(SurfaceUncertainty, TellsWhereCellsCameFrom) {
     // One point each metre within a square of 2.5 m: five cells either way hold two or three points.
     EXPECT_NEAR(u->density_per_m2[dem.geometry.cellAt(30.25, 20.25).value()], 2.5 / 6.25, 0.1);
     EXPECT_EQ(u->density_per_m2[dem.geometry.cellAt(30.25, 24.25).value()], 0.0F);
-    EXPECT_EQ(surfaceUncertainty(dem, points, {}, model, silent, {}).error().kind, ErrorKind::Usage);
+    EXPECT_EQ(surfaceUncertainty(dem, points, {}, {model, {}}, silent, {}).error().kind, ErrorKind::Usage);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -194,6 +195,13 @@ TEST(Process, GridsByTheMethodAskedForAndSaysWhich) {
         }
         ASSERT_GT(cells, 100u);
         EXPECT_LT(off_m / static_cast<double>(cells), 0.5) << text << ": it is the same ground";
+        const bool own_variance = method == InterpolationMethod::Kriging;
+        ASSERT_TRUE(products.report.surface.uncertainty);
+        EXPECT_EQ(products.report.surface.uncertainty->own_variance, own_variance) << text;
+        const auto told = testing::HasSubstr("variance of the method: noise times");
+        EXPECT_THAT(products.report.surface.notes, testing::Contains(told).Times(own_variance ? 1 : 0))
+            << text;
+        EXPECT_GT(products.report.surface.uncertainty->at_point_m, 0.0) << text;
     }
     config.surface.method.reset();
     const Products best = processed(s.survey, config);

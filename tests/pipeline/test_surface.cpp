@@ -85,6 +85,7 @@ TEST(Surface, PutsHeightsAndErrorsInOneFileWhereKrigingHasThem) {
     const auto kriging = surfaceOf(request);
     ASSERT_TRUE(kriging) << kriging.error().text();
     ASSERT_THAT(kriging->files, Contains(folder / "dem_multiband.tif"));
+    EXPECT_THAT(kriging->notes, Contains(HasSubstr("variance of the method: noise times")));
     // Its first band is the DEM's.
     const auto both = readDem(folder / "dem_multiband.tif", {}), alone = readDem(folder / "dem.tif", {});
     ASSERT_TRUE(both && alone);
@@ -256,6 +257,42 @@ TEST(Surface, KeepsToTerraceEdgesThatItFinds) {
     request.model.terrace_edges = TerraceEdgeUse::Auto;
     request.model.method = InterpolationMethod::Nearest;
     EXPECT_THAT(surfaceOf(request)->notes, Contains(HasSubstr("nearest cannot follow")));
+}
+
+TEST(Surface, LetsAllMethodsCompeteWhereTerraceEdgesAreFound) {
+    const TemporaryFolder folder;
+    SurfaceRequest request;
+    request.points = folder / "points.csv";
+    request.output = folder / "dem.tif";
+    request.resolution = 1.0;
+    // Steep risers between level treads: the edges are worth more than anything else.
+    writeTerraces(request.points);
+    const auto terraces = surfaceOf(request);
+    ASSERT_TRUE(terraces) << terraces.error().text();
+    ASSERT_TRUE(terraces->validation);
+    EXPECT_EQ(terraces->validation->ranking.size(), kInterpolationMethods.size());
+    EXPECT_TRUE(followsBreaklines(terraces->method)) << name(terraces->method);
+    EXPECT_GT(terraces->terrace_edges.count, 0u);
+    EXPECT_THAT(terraces->notes, Not(Contains(HasSubstr("not kept to"))));
+
+    // One riser among waves with noise: who smooths wins, edges or not.
+    RandomNumbers random(4);
+    std::string text = "x_m,y_m,z_m\n";
+    for (int i = 0; i < 2500; ++i) {
+        const double x = random.uniform(0.0, 60.0), y = random.uniform(0.0, 60.0);
+        const double z = 0.5 * std::sin(x / 3.0) * std::cos(y / 3.0) + std::clamp(y - 30.0, 0.0, 1.0) +
+                         0.1 * random.normal();
+        text += fmt::format("{:.6f},{:.6f},{:.6f}\n", x, y, z);
+    }
+    writeBytes(request.points, text);
+    const auto waves = surfaceOf(request);
+    ASSERT_TRUE(waves) << waves.error().text();
+    EXPECT_FALSE(followsBreaklines(waves->method)) << name(waves->method);
+    EXPECT_EQ(waves->method, waves->validation->ranking.front());
+    EXPECT_EQ(waves->terrace_edges.count, 0u);
+    EXPECT_THAT(waves->notes, Contains(HasSubstr("terrace edges found but not kept to: ")));
+    EXPECT_THAT(waves->files, Not(Contains(folder / "dem_terrace_edges.gpkg")));
+    EXPECT_THAT(waves->notes, Contains(HasSubstr("dem_terrace_edges.gpkg does not belong to this DEM")));
 }
 
 TEST(Surface, CleansAndThinsPointsInTheirOwnUnit) {
