@@ -142,7 +142,7 @@ class JointAdjuster {
     static double heightInflation(const SigmaCoverage& test) {
         constexpr std::size_t kFewest = 30;
         // Crossovers bind a track more than they test it: what they leave is judged with a margin.
-        constexpr double kMargin = 2.2;
+        constexpr double kMargin = 2.8;
         return test.n < kFewest ? 1.0 : std::clamp(kMargin * test.mean_square, 0.65, 4.0);
     }
 

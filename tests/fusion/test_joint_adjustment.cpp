@@ -214,6 +214,22 @@ TEST(CrossoverCorrection, APreviewBringsPassesTogetherAndKeepsTheFiltersSigmas) 
     EXPECT_LT(preview_m2, 0.9 * without_m2);
 }
 
+// A sigma whose weight is beyond the range of numbers leaves the adjustment without a solution.
+TEST(CrossoverCorrection, StandsInWhereTheAdjustmentHasNoSolution) {
+    const SimulatedSurvey simulated = simulatedSurvey(smallField(1));
+    FusionOptions options;
+    options.joint.ground_roughness_m = 1e-200;
+    const FusedSurvey fallback = fused(simulated.survey, options);
+    EXPECT_FALSE(fallback.adjustment);
+    options.joint.preview = true;
+    const FusedSurvey preview = fused(simulated.survey, options);
+    ASSERT_EQ(fallback.runs.size(), preview.runs.size());
+    for (std::size_t r = 0; r < fallback.runs.size(); ++r) {
+        EXPECT_EQ(worstDistance(fallback.runs[r].trajectory, preview.runs[r].trajectory), 0.0);
+        EXPECT_NE(fallback.runs[r].notes.limitations.back().find("has no solution"), std::string::npos);
+    }
+}
+
 // Eight seconds of ranges cut short by a hand: false ground that crosses true ground.
 TEST(JointAdjustment, FalseGroundIsDownWeightedAndCounted) {
     SimulationOptions options = smallField(1);
