@@ -75,6 +75,7 @@ class JointAdjuster {
             if (settled_) {
                 const std::vector<GroupStatistics> statistics = system.statistics(*solution);
                 if (last) {
+                    plan_inflation_ = planInflation(statistics);
                     result.summary.rounds = rounds;
                     result.summary.last_step_m = step_m;
                     result.summary.settled = step_m < kFinalStep_m;
@@ -93,6 +94,7 @@ class JointAdjuster {
             before.emplace(std::move(system));
         }
         result.summary.height_inflation = height_inflation_;
+        result.summary.plan_inflation = plan_inflation_;
         if (options_.joint.use_crossovers) {
             crossovers_.find();
             result.summary.misfit_after_m = rootMeanSquareMisfit(crossovers_.pairs());
@@ -146,6 +148,22 @@ class JointAdjuster {
         return test.n < kFewest ? 1.0 : std::clamp(kMargin * test.mean_square, 0.65, 4.0);
     }
 
+    // Robust rows give way to jumps of the GNSS position, and the covariance then knows nothing of them; but
+    // the track followed some of the way. So the variance of the plan grows as far as the drift of GNSS is
+    // larger by its plain mean square than by its robust one.
+    static double planInflation(const std::vector<GroupStatistics>& statistics) {
+        constexpr double kOfNormalErrors = 0.9;
+        constexpr double kGreatest = 4.0;
+        double squares = 0.0;
+        double redundancy = 0.0;
+        for (std::size_t g = kGnssWalkH; g < kGnssWalkV; ++g) {
+            squares += statistics[g].squares;
+            redundancy += statistics[g].redundancy;
+        }
+        if (redundancy < 1.0) return 1.0;
+        return std::clamp(squares / redundancy / kOfNormalErrors, 1.0, kGreatest);
+    }
+
     void wantCovariances(SparseLeastSquares& system) const {
         for (const RunModel& run : runs_) {
             for (std::size_t k = 0; k < run.correction.knots(); ++k) {
@@ -162,7 +180,7 @@ class JointAdjuster {
 
     // Slopes of the ground tell where a track lies, and pairs side by side err alike in it: of what the
     // crossovers take off the variance of the plan, only a part is believed.
-    static double planInflation(const RunModel& run, std::size_t knot, double with_crossovers_m2) {
+    static double disbelief(const RunModel& run, std::size_t knot, double with_crossovers_m2) {
         constexpr double kBelieved = 0.4;
         const double without = std::max(run.plan_variance_m2[knot], with_crossovers_m2);
         return kBelieved + (1.0 - kBelieved) * without / with_crossovers_m2;
@@ -201,7 +219,8 @@ class JointAdjuster {
             }
             Eigen::Matrix3d p = g * g * here + f * f * there + g * f * (cross + cross.transpose());
             // Variances are scaled, correlations stay.
-            const double plan = std::sqrt(planInflation(run, at.knot, 0.5 * (here(0, 0) + here(1, 1))));
+            const double plan =
+                std::sqrt(plan_inflation_ * disbelief(run, at.knot, 0.5 * (here(0, 0) + here(1, 1))));
             const Eigen::Vector3d inflate(plan, plan, std::sqrt(height_inflation_));
             p = inflate.asDiagonal() * p * inflate.asDiagonal();
             epoch.covariance.setZero();
@@ -228,6 +247,7 @@ class JointAdjuster {
     CrossoverRows crossovers_{survey_, options_, runs_, array_iron_};
     std::size_t unknowns_ = 0;
     double height_inflation_ = 1.0;
+    double plan_inflation_ = 1.0;
     bool settled_ = false;  // the track is near its place
 };
 

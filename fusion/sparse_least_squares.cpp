@@ -147,6 +147,7 @@ std::vector<GroupStatistics> SparseLeastSquares::statistics(const Eigen::VectorX
             deviations[row_groups_[row]].push_back(std::abs(after) /
                                                    (sigma * std::sqrt(std::max(redundancy, 0.02))));
         }
+        s.squares += squared(after / sigma);
         s.weighted_squares += weight * squared(after / sigma);
         if (weight < 0.5) ++s.down_weighted;
     }

@@ -40,6 +40,7 @@ struct GroupStatistics {
     std::size_t rows = 0;
     double redundancy = 0.0;        ///< rows less what the unknowns took of them
     double weighted_squares = 0.0;  ///< sum of weight (residual / sigma)^2
+    double squares = 0.0;           ///< the same without weights: outliers count in full
     double median_deviation = 0.0;  ///< |residual| / its sigma, redundancy counted, over 0.6745
     std::size_t down_weighted = 0;  ///< rows whose weight fell below a half
 };

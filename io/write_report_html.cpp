@@ -453,6 +453,11 @@ std::string adjustmentSection(const std::optional<AdjustmentSummary>& adjustment
                                                ? "kept: no crossovers to test it"
                                                : fmt::format("multiplied by {}, see the crossovers' test",
                                                              fixedDecimals(a.height_inflation, 2)));
+    rows += pairRow("Variance of the plan",
+                    a.plan_inflation == 1.0 ? "kept: GNSS drifts as its noise says"
+                                            : fmt::format("multiplied by {}: GNSS drifts by more than its "
+                                                          "robust noise says",
+                                                          fixedDecimals(a.plan_inflation, 2)));
     std::string noise =
         "<tr><th>Source of noise</th><th class=\"number\">Rows</th><th class=\"number\">Sigma "
         "times</th><th class=\"number\">Down-weighted</th></tr>\n";

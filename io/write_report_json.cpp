@@ -287,6 +287,7 @@ Json adjustmentJson(const std::optional<AdjustmentSummary>& adjustment) {
             {"left_out_misfit_after_m", a.left_out.after_m},
             {"crossover_test", coverageJson(a.crossover_test)},
             {"height_variance_factor", a.height_inflation},
+            {"plan_variance_factor", a.plan_inflation},
             {"rounds", a.rounds},
             {"last_step_m", a.last_step_m},
             {"settled", a.settled},

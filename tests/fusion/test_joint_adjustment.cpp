@@ -230,6 +230,22 @@ TEST(CrossoverCorrection, StandsInWhereTheAdjustmentHasNoSolution) {
     }
 }
 
+TEST(JointAdjustment, SigmasOfThePlanGrowWithTheJumpsOfGnss) {
+    double calm = 0.0;
+    double jumpy = 0.0;
+    constexpr std::uint64_t kSeeds = 4;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+        SimulationOptions day = smallField(seed);
+        day.faults = FaultLevel::None;
+        calm += fused(simulatedSurvey(day).survey).adjustment->plan_inflation / kSeeds;
+        day.faults = FaultLevel::Severe;
+        jumpy += fused(simulatedSurvey(day).survey).adjustment->plan_inflation / kSeeds;
+    }
+    EXPECT_GE(calm, 1.0);
+    EXPECT_LT(calm, 1.1);
+    EXPECT_GT(jumpy, 1.2);
+}
+
 // Eight seconds of ranges cut short by a hand: false ground that crosses true ground.
 TEST(JointAdjustment, FalseGroundIsDownWeightedAndCounted) {
     SimulationOptions options = smallField(1);

@@ -320,6 +320,18 @@ TEST(SparseLeastSquares, TheMedianOfAGroupDoesNotSeeItsOutliers) {
     }
 }
 
+TEST(SparseLeastSquares, PlainSquaresCountWhatTheWeightsHoldOff) {
+    SparseLeastSquares system(1, {group(Loss::Cauchy, 2.0)});
+    for (int i = 0; i < 20; ++i) system.addRow(0, {{0, 1.0}}, i % 2 == 0 ? 1.0 : -1.0, 1.0);
+    system.addRow(0, {{0, 1.0}}, 100.0, 1.0);
+    const Eigen::VectorXd stays = Eigen::VectorXd::Zero(1);
+    ASSERT_TRUE(system.solve());
+    const GroupStatistics s = system.statistics(stays)[0];
+    EXPECT_NEAR(s.squares, 20.0 + 1e4, 1e-9);
+    // Weight 1 / (1 + (r / 2)^2) of each.
+    EXPECT_NEAR(s.weighted_squares, 20.0 * 0.8 + 1e4 / 2501.0, 1e-9);
+}
+
 TEST(SparseLeastSquares, NoiseFactorsStayInTheirLimits) {
     for (const double size : {1e-3, 1e3}) {
         RowGroup rows = group(Loss::Square, 1.0);
