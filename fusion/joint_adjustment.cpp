@@ -60,7 +60,7 @@ class JointAdjuster {
             }
             const double step_m = takeStep(*solution);
             // Crossovers are not to be trusted more for what they themselves said of the plan.
-            if (!with_pairs) takePlanVariances(system);
+            if (!with_pairs) takeVariances(system);
             if (settled_) ++rounds;
             const bool last = rounds >= 2 * least || (rounds >= least && step_m < kFinalStep_m);
             if (!settled_ && robust && (step_m < kSettledStep_m || round >= kMostToSettle)) {
@@ -112,6 +112,9 @@ class JointAdjuster {
     static constexpr double kSettledStep_m = 0.3;
     static constexpr double kFinalStep_m = 0.1;
     static constexpr int kMostToSettle = 8;
+    static constexpr double kPlanDoubt = 0.6;
+    static constexpr double kHeightDoubt = 1.8;
+    static constexpr double kGreatestHeightMargin = 2.8;
 
     void addRows(SparseLeastSquares& system, bool with_pairs) {
         SensorRows sensors(options_, array_iron_, settled_, system);
@@ -130,12 +133,15 @@ class JointAdjuster {
         return step_m;
     }
 
-    void takePlanVariances(SparseLeastSquares& system) {
+    void takeVariances(SparseLeastSquares& system) {
         for (RunModel& run : runs_) {
             run.plan_variance_m2.resize(run.correction.knots());
+            run.height_variance_m2.resize(run.correction.knots());
             for (std::size_t k = 0; k < run.correction.knots(); ++k) {
                 const std::size_t e = run.correction.unknown(k, 0);
                 const std::size_t n = run.correction.unknown(k, 1);
+                const std::size_t u = run.correction.unknown(k, 2);
+                run.height_variance_m2[k] = system.covariance(u, u);
                 run.plan_variance_m2[k] = 0.5 * (system.covariance(e, e) + system.covariance(n, n));
             }
         }
@@ -143,9 +149,7 @@ class JointAdjuster {
 
     static double heightInflation(const SigmaCoverage& test) {
         constexpr std::size_t kFewest = 30;
-        // Crossovers bind a track more than they test it: what they leave is judged with a margin.
-        constexpr double kMargin = 2.8;
-        return test.n < kFewest ? 1.0 : std::clamp(kMargin * test.mean_square, 0.65, 4.0);
+        return test.n < kFewest ? 1.0 : std::clamp(test.mean_square, 0.25, 2.0);
     }
 
     // Robust rows give way to jumps of the GNSS position, and the covariance then knows nothing of them; but
@@ -178,12 +182,11 @@ class JointAdjuster {
         }
     }
 
-    // Slopes of the ground tell where a track lies, and pairs side by side err alike in it: of what the
-    // crossovers take off the variance of the plan, only a part is believed.
-    static double disbelief(const RunModel& run, std::size_t knot, double with_crossovers_m2) {
-        constexpr double kBelieved = 0.4;
-        const double without = std::max(run.plan_variance_m2[knot], with_crossovers_m2);
-        return kBelieved + (1.0 - kBelieved) * without / with_crossovers_m2;
+    // Crossovers bind a track more than they test it, pairs side by side err alike, and slopes tell of the
+    // plan what they tell of each other: of what crossovers take off a variance, a part is added again, or
+    // more.
+    static double margin(double doubt, double without_crossovers, double with_crossovers) {
+        return 1.0 + doubt * std::max(without_crossovers / with_crossovers - 1.0, 0.0);
     }
 
     Trajectory trajectory(const RunModel& run, SparseLeastSquares& system) const {
@@ -219,9 +222,12 @@ class JointAdjuster {
             }
             Eigen::Matrix3d p = g * g * here + f * f * there + g * f * (cross + cross.transpose());
             // Variances are scaled, correlations stay.
-            const double plan =
-                std::sqrt(plan_inflation_ * disbelief(run, at.knot, 0.5 * (here(0, 0) + here(1, 1))));
-            const Eigen::Vector3d inflate(plan, plan, std::sqrt(height_inflation_));
+            const double plan = plan_inflation_ * margin(kPlanDoubt, run.plan_variance_m2[at.knot],
+                                                         0.5 * (here(0, 0) + here(1, 1)));
+            const double height = height_inflation_ *
+                                  std::min(margin(kHeightDoubt, run.height_variance_m2[at.knot], here(2, 2)),
+                                           kGreatestHeightMargin);
+            const Eigen::Vector3d inflate(std::sqrt(plan), std::sqrt(plan), std::sqrt(height));
             p = inflate.asDiagonal() * p * inflate.asDiagonal();
             epoch.covariance.setZero();
             epoch.covariance.topLeftCorner<3, 3>() = p;

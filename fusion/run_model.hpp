@@ -65,8 +65,9 @@ struct RunModel {
     std::vector<Eigen::Vector2d> flow_mps;
     std::vector<double> bridge_sigma_mps;  // zero where the flow was measured
     std::vector<bool> level_known;         // whether a range was measured about the knot
-    std::vector<double>
-        plan_variance_m2;                // of each knot, per axis, as of the last solution without crossovers
+    // Of each knot, as of the last solution without crossovers; of the plan per axis.
+    std::vector<double> plan_variance_m2;
+    std::vector<double> height_variance_m2;
     std::vector<double> above_ground_m;  // height of the array above the ground below it, spikes left out
     std::vector<KnotChain::Place> at;    // of each epoch in `correction`
     std::vector<KnotChain::Place> psi_at;
