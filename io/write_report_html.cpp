@@ -552,6 +552,11 @@ std::string surfaceSection(const SurveyReport& report) {
            (s.comparison ? comparisonTable(*s.comparison) : "");
 }
 
+constexpr const char* kSpaceNote =
+    "What the laser crossed is free, where it ended is occupied; of the rest nothing is known. Files: "
+    "occupancy.bt and occupancy.ot for OctoMap, free_height.tif, and obstacle_height.tif where there is any "
+    "obstacle.";
+
 std::string occupancySection(const OccupancySummary& summary) {
     std::string rows;
     for (const auto& [word, line] : inWords(summary)) rows += pairRow(word, line);
@@ -559,13 +564,7 @@ std::string occupancySection(const OccupancySummary& summary) {
         pairRow("Ground layer", fmt::format("what lies lower than {:g} m above the terrain model counts as "
                                             "ground; looked up to {:g} m",
                                             summary.ground_layer_m, summary.greatest_height_m));
-    return "<div class=\"scroll\"><table>\n" + tableBody(rows) + "</table></div>\n" +
-           note(
-               "What the laser crossed is free, where it ended is occupied; of the rest nothing is known. "
-               "Files: "
-               "occupancy.bt and occupancy.ot for OctoMap, free_height.tif, and obstacle_height.tif where "
-               "there is "
-               "any obstacle.");
+    return "<div class=\"scroll\"><table>\n" + tableBody(rows) + "</table></div>\n" + note(kSpaceNote);
 }
 
 // ---------------------------------------------------------------------------------------------- runs

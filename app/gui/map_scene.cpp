@@ -338,7 +338,8 @@ void drawStretches(QPainter& painter, const MapScene& scene, const MapTransform&
         }
         if (scene.stretch && scene.stretch->run == id) {
             // Opaque: the line is drawn in pieces, which would show where they overlap.
-            for (const auto& [colour, width_px] : {std::pair(QColor(Qt::white), 7.0), {accentColour(), 4.5}}) {
+            for (const auto& [colour, width_px] :
+                 {std::pair(QColor(Qt::white), 7.0), {accentColour(), 4.5}}) {
                 drawPart(painter, track, scene.stretch->from_s, scene.stretch->to_s,
                          QPen(colour, width_px, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin), transform);
             }
