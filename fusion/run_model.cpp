@@ -77,6 +77,7 @@ class Preparer {
         run.base_yaw_rad[0] = run.yaw_rad[0];
         constexpr double kUnknownRate_radps = radians(20.0);  // change of rate from one record to the next
         const double longest_s = 1.5 * usualStep_s(log);
+        constexpr double kMissedTurn_rad = radians(20.0);
         const double compass_step = 2.0 * squared(compassNoise_rad(options_.attitude));
         for (std::size_t i = 1; i < n; ++i) {
             const double dt = log.time_s[i] - log.time_s[i - 1];
@@ -84,11 +85,15 @@ class Preparer {
             const bool compass =
                 present(log.value(Channel::Heading, i)) && present(log.value(Channel::Heading, i - 1));
             // A stride turns the hand by degrees between two records: over a gap the compass tells more.
+            const double by_gyro = 0.5 * dt * (rate[i] + rate[i - 1]);
+            const double by_compass = wrapAngle(run.yaw_rad[i] - run.yaw_rad[i - 1]);
+            // Who turns on the spot can do so between two records, and neither rate tells.
+            const bool missed = compass && std::abs(wrapAngle(by_compass - by_gyro)) > kMissedTurn_rad;
             double turned = 0.0;
-            if (summed) {
-                turned = 0.5 * dt * (rate[i] + rate[i - 1]);
+            if (summed && !missed) {
+                turned = by_gyro;
             } else if (compass) {
-                turned = wrapAngle(run.yaw_rad[i] - run.yaw_rad[i - 1]);
+                turned = by_compass;
                 run.base_doubt_rad2[i] = compass_step;
             } else {
                 const double known_rate = present(rate[i]) ? rate[i] : rate[i - 1];

@@ -246,6 +246,53 @@ TEST(JointAdjustment, SigmasOfThePlanGrowWithTheJumpsOfGnss) {
     EXPECT_GT(jumpy, 1.2);
 }
 
+// Few crossovers test the sigmas of a small field.
+TEST(JointAdjustment, SigmasOfHeightsHoldOnSmallFields) {
+    constexpr std::uint64_t kSeeds = 12;
+    for (const GnssMode gnss : {GnssMode::Single, GnssMode::Rtk}) {
+        double normalized = 0.0;
+        double count = 0.0;
+        for (std::uint64_t seed = 21; seed < 21 + kSeeds; ++seed) {
+            SimulationOptions day = smallField(seed);
+            day.gnss = gnss;
+            const SimulatedSurvey simulated = simulatedSurvey(day);
+            const FusedSurvey result = fused(simulated.survey);
+            const auto& epochs = result.runs.back().trajectory.epochs;
+            const auto& truth = simulated.truth.back().epochs;
+            for (std::size_t i = 0; i < epochs.size(); ++i) {
+                const double error_m = epochs[i].position_enu_m.z() - truth[i].position_enu_m.z();
+                normalized += error_m * error_m / epochs[i].covariance(2, 2);
+                count += 1.0;
+            }
+        }
+        EXPECT_GT(normalized / count, 0.5) << name(gnss);
+        EXPECT_LT(normalized / count, 2.0) << name(gnss);
+    }
+}
+
+// On this walk someone turns by 90 degrees on a mark between two records.
+TEST(JointAdjustment, ATurnThatTheGyroMissedIsTakenFromTheCompass) {
+    SimulationOptions day;
+    day.seed = 802;
+    day.area_east_m = 35.0;
+    day.area_north_m = 35.0;
+    day.fixed_point_runs = 6;
+    day.area_epochs = 4000;
+    day.faults = FaultLevel::None;
+    const SimulatedSurvey simulated = simulatedSurvey(day);
+    const std::size_t walk = simulated.survey.runs.size() - 1;
+    const auto& truth = simulated.truth[walk].epochs;
+    double sharpest_rad = 0.0;
+    for (std::size_t i = 1; i < truth.size(); ++i) {
+        const double turned = truth[i].attitude.yaw_rad - truth[i - 1].attitude.yaw_rad;
+        sharpest_rad = std::max(sharpest_rad, std::abs(wrapAngle(turned)));
+    }
+    ASSERT_GT(sharpest_rad, radians(80.0));
+    const FusedSurvey result = fused(simulated.survey);
+    EXPECT_LT(rmsError(result, simulated, walk, false), 0.5);
+    EXPECT_LT(rmsError(result, simulated, walk, true), 0.05);
+}
+
 // Eight seconds of ranges cut short by a hand: false ground that crosses true ground.
 TEST(JointAdjustment, FalseGroundIsDownWeightedAndCounted) {
     SimulationOptions options = smallField(1);
