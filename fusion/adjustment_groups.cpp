@@ -32,7 +32,7 @@ std::vector<RowGroup> adjustmentGroups(bool robust) {
     set(kGust, "barometer gusts", Loss::Square, 3.0, true, 0.1, 6.0);
     set(kFlow, "optical flow", Loss::Huber, 3.0, true, 0.3, 6.0);
     set(kBridge, "optical flow bridged", Loss::Square, 2.0, false);
-    set(kCompass, "compass drift", Loss::Huber, 3.0, true, 0.2, 6.0);
+    set(kCompass, "compass drift", Loss::Cauchy, 3.0, true, 0.2, 6.0);
     set(kGyro, "gyro", Loss::Huber, 3.0, true, 0.2, 20.0);
     set(kHeading, "compass noise", Loss::Cauchy, 3.0, true, 0.2, 10.0);
     set(kWalk, "walk", Loss::Square, 2.0, false);

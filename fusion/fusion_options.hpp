@@ -121,6 +121,7 @@ struct FlowOptions {
     double correlation_s =
         15.0;  ///< for how long errors of scale and heading keep their direction over ground [s]
     double smallest_quality = 1.0;  ///< flow_quality below this is rejected: no texture
+    bool screen = true;  ///< reject readings of nothing amid motion, and those far from their neighbours
     /// Stand in with the recent mean flow while neither flow nor Doppler velocity is used.
     bool bridge_dropouts = true;
     double bridge_after_s = 0.6;     ///< without a used reading [s]
@@ -148,6 +149,7 @@ struct YawRowOptions {
 struct AttitudeOptions {
     double sigma_tilt_deg = 0.1;       ///< roll and pitch; paper 000, table 1, moving
     double sigma_heading_deg = 3.0;    ///< paper 000, table 1 says 0.5, without the iron that a field holds
+    double heading_lag_s = 0.2;        ///< by which the compass may come behind in turns
     double sigma_tilt_held_deg = 5.0;  ///< while the last known attitude stands in
     double sigma_heading_held_deg = 20.0;
     double longest_hold_s = 1.0;           ///< a held heading still rotates the flow for so long [s]
@@ -199,6 +201,7 @@ struct LastingErrorOptions {
     double flow_scale_sigma = 0.1;                 ///< constant in a run
     double flow_axes_sigma = 0.05;                 ///< half the difference of the scales of forward and left
     double gyro_bias_sigma_dps = 2.0;              ///< constant in a run
+    double gyro_scale_sigma = 0.03;                ///< constant in a run
     double gyro_walk_deg_per_sqrt_s = 0.05;        ///< by which a turn summed up from the gyro errs
     double acceleration_bias_sigma_mps2 = 0.15;    ///< each axis of the accelerometer, in the level axes with
                                                    ///< what a wrong tilt lets in of gravity

@@ -105,23 +105,30 @@ void SensorRows::addHeading(const RunModel& run) {
     addGaussMarkov(run.psi, 0, radians(lasting.heading_sigma_deg), lasting.heading_correlation_s, kCompass);
     system_.addRow(kPrior, {{run.gyro_bias.unknown, 1.0}}, -run.gyro_bias.value,
                    radians(lasting.gyro_bias_sigma_dps));
+    system_.addRow(kPrior, {{run.gyro_scale.unknown, 1.0}}, -run.gyro_scale.value, lasting.gyro_scale_sigma);
     if (run.has_gyro) addGyro(run);
 }
 
 void SensorRows::addGyro(const RunModel& run) {
     const double walk = radians(options_.lasting.gyro_walk_deg_per_sqrt_s);
     std::vector<double> doubt_rad2(run.turn.knots(), 0.0);
+    std::vector<double> turned_rad(run.turn.knots(), 0.0);
     for (std::size_t i = 0; i < run.size(); ++i) {
-        doubt_rad2[std::min(run.turn_at[i].knot + 1, run.turn.knots() - 1)] += run.base_doubt_rad2[i];
+        const std::size_t k = std::min(run.turn_at[i].knot + 1, run.turn.knots() - 1);
+        doubt_rad2[k] += run.base_doubt_rad2[i];
+        turned_rad[k] += run.gyro_turn_rad[i];
     }
     system_.addRow(kPrior, {{run.turn.unknown(0), 1.0}}, -run.turn.knotValue(0), 1.0);
     for (std::size_t k = 1; k < run.turn.knots(); ++k) {
         const double dt = run.turn.time(k) - run.turn.time(k - 1);
-        system_.addRow(
-            kGyro,
-            {{run.turn.unknown(k), 1.0}, {run.turn.unknown(k - 1), -1.0}, {run.gyro_bias.unknown, -dt}},
-            run.turn.knotValue(k - 1) - run.turn.knotValue(k) + run.gyro_bias.value * dt,
-            std::sqrt(squared(walk) * dt + doubt_rad2[k]));
+        system_.addRow(kGyro,
+                       {{run.turn.unknown(k), 1.0},
+                        {run.turn.unknown(k - 1), -1.0},
+                        {run.gyro_bias.unknown, -dt},
+                        {run.gyro_scale.unknown, -turned_rad[k]}},
+                       run.turn.knotValue(k - 1) - run.turn.knotValue(k) + run.gyro_bias.value * dt +
+                           run.gyro_scale.value * turned_rad[k],
+                       std::sqrt(squared(walk) * dt + doubt_rad2[k]));
     }
     addCompass(run);
 }
@@ -129,10 +136,17 @@ void SensorRows::addGyro(const RunModel& run) {
 // Compass against summed gyro, one row for the mean over each knot interval.
 void SensorRows::addCompass(const RunModel& run) {
     constexpr double kSteady_rad = radians(0.15);  // of the mean: what does not average out
+    const auto lag_rad = [&](std::size_t first, std::size_t last) {
+        const double over_s = run.time(last) - run.time(first);
+        const double turned_rad = run.base_yaw_rad[last] - run.base_yaw_rad[first];
+        return over_s > 0.0 ? options_.attitude.heading_lag_s * turned_rad / over_s : 0.0;
+    };
     const double white = compassNoise_rad(options_.attitude);
     std::array<double, 2> turn{}, psi{};
     double n = 0.0, sine = 0.0, cosine = 0.0, residual = 0.0;
     std::size_t psi_first = 0;
+    std::size_t first = 0;
+    std::size_t last = 0;
     std::size_t turn_interval = 0;
     for (std::size_t i = 0; i <= run.size(); ++i) {
         const std::size_t interval = i == run.size() ? run.turn.knots() : run.turn_at[i].knot;
@@ -146,14 +160,19 @@ void SensorRows::addCompass(const RunModel& run) {
             row_.add(array_iron_.sin.unknown, sine / n);
             row_.add(run.iron.cos.unknown, cosine / n);
             row_.add(array_iron_.cos.unknown, cosine / n);
-            system_.addRow(kHeading, row_.all(), residual / n, std::hypot(white / std::sqrt(n), kSteady_rad));
+            system_.addRow(kHeading, row_.all(), residual / n,
+                           std::hypot(white / std::sqrt(n), kSteady_rad, lag_rad(first, last)));
             turn = psi = {};
             n = sine = cosine = residual = 0.0;
         }
         if (i == run.size()) break;
         turn_interval = interval;
         if (!present(run.log->value(Channel::Heading, i))) continue;
-        if (n == 0.0) psi_first = run.psi_at[i].knot;
+        if (n == 0.0) {
+            psi_first = run.psi_at[i].knot;
+            first = i;
+        }
+        last = i;
         const double yaw = run.yaw_rad[i];
         turn[0] += 1.0 - run.turn_at[i].fraction;
         turn[1] += run.turn_at[i].fraction;

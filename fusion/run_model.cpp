@@ -63,20 +63,27 @@ class Preparer {
         const std::size_t n = run.size();
         std::vector<double> rate(n, kMissing);
         std::size_t known = 0;
+        std::size_t first_known = n;
+        bool stuck = true;
         for (std::size_t i = 0; i < n; ++i) {
             const Attitude& a = run.start->attitudes[i].attitude;
             rate[i] = (std::sin(a.roll_rad) * log.value(Channel::AngularRateY, i) +
                        std::cos(a.roll_rad) * log.value(Channel::AngularRateZ, i)) /
                       std::cos(a.pitch_rad);
-            if (present(rate[i])) ++known;
+            if (!present(rate[i])) continue;
+            if (known++ == 0) first_known = i;
+            stuck =
+                stuck && log.value(Channel::AngularRateZ, i) == log.value(Channel::AngularRateZ, first_known);
         }
-        if (2 * known < n) return;
+        if (2 * known < n || stuck) return;
         run.has_gyro = true;
         run.base_yaw_rad.assign(n, 0.0);
         run.base_doubt_rad2.assign(n, 0.0);
+        run.gyro_turn_rad.assign(n, 0.0);
         run.base_yaw_rad[0] = run.yaw_rad[0];
         constexpr double kUnknownRate_radps = radians(20.0);  // change of rate from one record to the next
         const double longest_s = 1.5 * usualStep_s(log);
+        constexpr double kFastTurn_radps = radians(50.0);
         constexpr double kMissedTurn_rad = radians(20.0);
         const double compass_step = 2.0 * squared(compassNoise_rad(options_.attitude));
         for (std::size_t i = 1; i < n; ++i) {
@@ -87,11 +94,14 @@ class Preparer {
             // A stride turns the hand by degrees between two records: over a gap the compass tells more.
             const double by_gyro = 0.5 * dt * (rate[i] + rate[i - 1]);
             const double by_compass = wrapAngle(run.yaw_rad[i] - run.yaw_rad[i - 1]);
-            // Who turns on the spot can do so between two records, and neither rate tells.
-            const bool missed = compass && std::abs(wrapAngle(by_compass - by_gyro)) > kMissedTurn_rad;
+            // Who turns on the spot can do so between two records, and the rates tell of a part.
+            const bool missed = compass &&
+                                std::max(std::abs(rate[i]), std::abs(rate[i - 1])) > kFastTurn_radps &&
+                                std::abs(wrapAngle(by_compass - by_gyro)) > kMissedTurn_rad;
             double turned = 0.0;
             if (summed && !missed) {
                 turned = by_gyro;
+                run.gyro_turn_rad[i] = by_gyro;
             } else if (compass) {
                 turned = by_compass;
                 run.base_doubt_rad2[i] = compass_step;
@@ -302,6 +312,15 @@ RunModel makeRunModel(const RunStart& start, const LocalFrame& frame, const Fusi
     return Preparer(frame, options).prepare(start);
 }
 
+namespace {
+
+// Of heading and flow.
+std::array<SingleUnknown*, 6> constants(RunModel& run) {
+    return {&run.iron.sin, &run.iron.cos, &run.scale, &run.axes, &run.gyro_bias, &run.gyro_scale};
+}
+
+}  // namespace
+
 void numberTrack(RunModel& run, std::size_t& next) {
     run.correction.place(next, 3);
     next += run.correction.unknowns();
@@ -342,7 +361,7 @@ void numberUnknowns(RunModel& run, std::size_t& next) {
             take(run.turn.knots());
             for (std::size_t i = 0; i < run.size(); ++i) run.turn_at.push_back(run.turn.locate(run.time(i)));
         }
-        for (SingleUnknown* s : {&run.iron.sin, &run.iron.cos, &run.scale, &run.axes, &run.gyro_bias}) {
+        for (SingleUnknown* s : constants(run)) {
             s->unknown = take(1);
         }
     }
@@ -383,7 +402,7 @@ double takeSolution(RunModel& run, const Eigen::VectorXd& solution) {
     if (run.has_heading) {
         run.psi.take(solution);
         if (run.has_gyro) run.turn.take(solution);
-        for (SingleUnknown* s : {&run.iron.sin, &run.iron.cos, &run.scale, &run.axes, &run.gyro_bias}) {
+        for (SingleUnknown* s : constants(run)) {
             s->value += solution[static_cast<Eigen::Index>(s->unknown)];
         }
     }

@@ -52,6 +52,7 @@ struct RunModel {
     KnotChain psi;    // compass error that wanders
     KnotChain turn;   // error of the turn summed up from the gyro
     std::vector<double> base_yaw_rad;     // what `turn` corrects: summed gyro, continuous
+    std::vector<double> gyro_turn_rad;    // since the epoch before, 0 where the gyro did not tell
     std::vector<double> base_doubt_rad2;  // variance of the turn before this epoch where the gyro was silent
     KnotChain drift, gust;                // barometer
     KnotChain force_bias;                 // accelerometer, body axes
@@ -59,7 +60,7 @@ struct RunModel {
     std::vector<GnssSegment> segments;
     std::vector<GnssEpoch> gnss;
     HardIron iron;  // of this run, beside that of the array
-    SingleUnknown scale, axes, gyro_bias;
+    SingleUnknown scale, axes, gyro_bias, gyro_scale;
     bool has_flow = false, has_heading = false, has_gyro = false, has_barometer = false;
     // Optical flow of each epoch, forward and left; where there was none, the mean of those around it.
     std::vector<Eigen::Vector2d> flow_mps;

@@ -270,6 +270,9 @@ std::vector<Parameter> fusionParameters() {
                TERRAWALK_FIELD(fusion.flow.correlation_s)),
         number("fusion.flow.smallest_quality", 0, 255, "flow_quality below this is rejected",
                TERRAWALK_FIELD(fusion.flow.smallest_quality)),
+        flag("fusion.flow.screen",
+             "reject readings of nothing amid motion, and those far from their neighbours",
+             TERRAWALK_FIELD(fusion.flow.screen)),
         flag("fusion.flow.bridge_dropouts", "let the recent mean flow stand in for missing readings",
              TERRAWALK_FIELD(fusion.flow.bridge_dropouts)),
         number("fusion.flow.bridge_after_s", 0, 10000.0, "after this time without a reading",
@@ -298,6 +301,8 @@ std::vector<Parameter> fusionParameters() {
                TERRAWALK_FIELD(fusion.attitude.sigma_tilt_deg)),
         number("fusion.attitude.sigma_heading_deg", 0.001, 180, "heading",
                TERRAWALK_FIELD(fusion.attitude.sigma_heading_deg)),
+        number("fusion.attitude.heading_lag_s", 0, 10, "by which the compass may come behind in turns",
+               TERRAWALK_FIELD(fusion.attitude.heading_lag_s)),
         number("fusion.attitude.sigma_tilt_held_deg", 0.001, 90,
                "roll and pitch while the last known ones stand in",
                TERRAWALK_FIELD(fusion.attitude.sigma_tilt_held_deg)),
@@ -562,6 +567,8 @@ std::vector<Parameter> surfaceParameters() {
                TERRAWALK_FIELD(fusion.lasting.flow_axes_sigma)),
         number("fusion.lasting.gyro_bias_sigma_dps", 0.0001, 100, "bias of the gyro, constant in a run",
                TERRAWALK_FIELD(fusion.lasting.gyro_bias_sigma_dps)),
+        number("fusion.lasting.gyro_scale_sigma", 0.0001, 1, "error of scale of the gyro, constant in a run",
+               TERRAWALK_FIELD(fusion.lasting.gyro_scale_sigma)),
         number("fusion.lasting.gyro_walk_deg_per_sqrt_s", 0.0001, 100,
                "by which a turn summed up from the gyro errs",
                TERRAWALK_FIELD(fusion.lasting.gyro_walk_deg_per_sqrt_s)),
@@ -777,7 +784,7 @@ std::vector<Parameter> editParameters() {
 }
 
 // An option that is added without a parameter could be neither set nor reported.
-static_assert(sizeof(FusionOptions) == 1224, "add the new option to fusionParameters()");
+static_assert(sizeof(FusionOptions) == 1240, "add the new option to fusionParameters()");
 static_assert(sizeof(AukfOptions) == 168, "add the new option to aukfParameters()");
 static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
 static_assert(sizeof(PointCleaningOptions) == 104, "add the new option to cleaningParameters()");

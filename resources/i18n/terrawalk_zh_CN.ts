@@ -1501,6 +1501,10 @@
             <translation>光流最低质量</translation>
         </message>
         <message>
+            <source>flow screen</source>
+            <translation>光流筛除异常读数</translation>
+        </message>
+        <message>
             <source>flow bridge dropouts</source>
             <translation>光流中断补接</translation>
         </message>
@@ -1551,6 +1555,10 @@
         <message>
             <source>attitude sigma heading</source>
             <translation>姿态航向 σ</translation>
+        </message>
+        <message>
+            <source>attitude heading lag</source>
+            <translation>姿态航向滞后</translation>
         </message>
         <message>
             <source>attitude sigma tilt held</source>
@@ -1931,6 +1939,10 @@
         <message>
             <source>lasting gyro bias sigma dps</source>
             <translation>持续误差 陀螺零偏 σ (°/s)</translation>
+        </message>
+        <message>
+            <source>lasting gyro scale sigma</source>
+            <translation>持续误差 陀螺比例 σ</translation>
         </message>
         <message>
             <source>lasting gyro walk deg per sqrt</source>

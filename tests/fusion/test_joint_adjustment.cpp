@@ -293,6 +293,71 @@ TEST(JointAdjustment, ATurnThatTheGyroMissedIsTakenFromTheCompass) {
     EXPECT_LT(rmsError(result, simulated, walk, true), 0.05);
 }
 
+// Errors that the simulator does not make and sensors do.
+struct OddSensor {
+    const char* name;
+    void (*spoil)(ArrayLog& log);
+};
+
+void scaleGyro(ArrayLog& log) {
+    for (const Channel c : {Channel::AngularRateX, Channel::AngularRateY, Channel::AngularRateZ}) {
+        for (double& rate : log.column(c)) rate = 1.04 * rate + radians(1.0);
+    }
+}
+
+void stopGyro(ArrayLog& log) {
+    for (const Channel c : {Channel::AngularRateX, Channel::AngularRateY, Channel::AngularRateZ}) {
+        for (double& rate : log.column(c)) rate = 0.0;
+    }
+}
+
+void zeroFlow(ArrayLog& log) {
+    for (std::size_t i = 0; i < log.size(); ++i) {
+        if (i % 100 < 12) log.column(Channel::FlowForward)[i] = log.column(Channel::FlowLeft)[i] = 0.0;
+    }
+}
+
+void spikeFlow(ArrayLog& log) {
+    for (std::size_t i = 0; i < log.size(); i += 20) log.column(Channel::FlowForward)[i] += 3.0;
+}
+
+void disturbCompass(ArrayLog& log) {
+    for (std::size_t i = 0; i < log.size(); ++i) {
+        double& yaw = log.column(Channel::Heading)[i];
+        if (i % 500 >= 400) yaw = wrapAngle(yaw + radians(30.0));
+    }
+}
+
+void delayCompass(ArrayLog& log) {
+    std::vector<double>& yaw = log.column(Channel::Heading);
+    for (std::size_t i = yaw.size(); i-- > 3;) yaw[i] = yaw[i - 3];
+}
+
+TEST(JointAdjustment, OddSensorsAreFoundOut) {
+    constexpr double kLargestRms_m = 0.7;  // 0.54 with the sensors as they are
+    static constexpr OddSensor kSensors[] = {
+        {"gyro scale and bias", scaleGyro},
+        {"gyro stuck", stopGyro},
+        {"flow of nothing", zeroFlow},
+        {"flow with spikes", spikeFlow},
+        {"iron beside the path", disturbCompass},
+        {"compass comes behind", delayCompass},
+    };
+    SimulationOptions day;
+    day.seed = 5;
+    day.area_east_m = 30.0;
+    day.area_north_m = 30.0;
+    day.fixed_point_runs = 4;
+    day.area_epochs = 3000;
+    const SimulatedSurvey simulated = simulatedSurvey(day);
+    const std::size_t walk = simulated.survey.runs.size() - 1;
+    for (const OddSensor& sensor : kSensors) {
+        Survey survey = simulated.survey;
+        for (terrawalk::Run& run : survey.runs) sensor.spoil(run.log);
+        EXPECT_LT(rmsError(fused(survey), simulated, walk, false), kLargestRms_m) << sensor.name;
+    }
+}
+
 // Eight seconds of ranges cut short by a hand: false ground that crosses true ground.
 TEST(JointAdjustment, FalseGroundIsDownWeightedAndCounted) {
     SimulationOptions options = smallField(1);
