@@ -190,12 +190,14 @@ void MainWindow::buildDocks() {
     tree_->setFrameShape(QFrame::NoFrame);
     tree_->setAccessibleName(tr("Survey"));
     connect(tree_, &QTreeView::customContextMenuRequested, this, &MainWindow::treeMenu);
-    connect(tree_, &QTreeView::clicked, this, [this](const QModelIndex& index) {
+    const auto choose = [this](const QModelIndex& index) {
         const QModelIndex first = index.siblingAtColumn(0);
         const int kind = first.data(SurveyTreeModel::KindRole).toInt();
         if (kind != SurveyTreeModel::RunItem && kind != SurveyTreeModel::MarkItem) return;
         session_.selection().selectItem(first.data(SurveyTreeModel::IdRole).toString());
-    });
+    };
+    connect(tree_, &QTreeView::clicked, this, choose);
+    connect(tree_->selectionModel(), &QItemSelectionModel::currentChanged, this, choose);
     connect(&tree_model_, &SurveyTreeModel::visibilityChanged, this,
             [this](int kind, const QString& id, bool visible) {
                 ViewState& state = session_.viewState();
@@ -336,7 +338,7 @@ void MainWindow::buildFileMenu() {
               [this] { session_.process(); });
     addAction(menu, "cancel", "stop", tr("&Cancel"), QKeySequence(Qt::CTRL | Qt::Key_Period),
               [this] { session_.cancel(); });
-    addAction(menu, "tune", "tune", tr("&Tune on the marks"), {}, [this] { session_.tune(); });
+    addAction(menu, "tune", "tune", tr("&Tune on the marks"), {}, [this] { steps_->tune(); });
     menu.addSeparator();
     addAction(menu, "export", "export", tr("&Export…"), QKeySequence("Ctrl+E"), [this] { askForExport(); });
     addAction(menu, "command", "copy", tr("Copy as co&mmand"), QKeySequence("Ctrl+Shift+C"),
@@ -772,6 +774,7 @@ void MainWindow::keepLayout() {
 
 void MainWindow::closeEvent(QCloseEvent* event) {
     keepLayout();
+    session_.keepChanges();
     session_.cancel();
     event->accept();
 }

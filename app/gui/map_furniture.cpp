@@ -114,13 +114,13 @@ std::vector<LegendPart> legendParts(const MapScene& scene) {
         std::vector<QColor> ramp;
         for (const Colour& c : sequentialRamp()) ramp.emplace_back(c[0], c[1], c[2]);
         const bool speed = scene.shown.colouring == TrackColouring::Speed;
-        parts.push_back({titleOf(scene.shown.colouring),
-                         {ramp,
-                          range->low,
-                          range->high,
-                          scene.shown.colouring != TrackColouring::Height,
-                          speed ? "m/s" : "m",
-                          {}}});
+        RasterLegend legend;
+        legend.ramp = std::move(ramp);
+        legend.low = range->low;
+        legend.high = range->high;
+        legend.open_above = scene.shown.colouring != TrackColouring::Height;
+        legend.unit = speed ? "m/s" : "m";
+        parts.push_back({titleOf(scene.shown.colouring), std::move(legend)});
     }
     return parts;
 }

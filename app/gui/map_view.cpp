@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/gui/background.hpp"
 #include "app/gui/map_furniture.hpp"
 #include "app/gui/round_numbers.hpp"
 
@@ -119,10 +120,11 @@ void MapView::colourLayer() {
         layer_watcher_.setFuture({});
         return;
     }
-    layer_watcher_.setFuture(QtConcurrent::run([products = scene_.products, shown = scene_.shown] {
-        return std::make_shared<const RasterPicture>(
-            rasterPicture(*products, shown.layer, shown.change.get()));
-    }));
+    layer_watcher_.setFuture(
+        QtConcurrent::run(backgroundPool(), [products = scene_.products, shown = scene_.shown] {
+            return std::make_shared<const RasterPicture>(
+                rasterPicture(*products, shown.layer, shown.change.get()));
+        }));
 }
 
 void MapView::makeContours() {
@@ -131,7 +133,7 @@ void MapView::makeContours() {
         contour_watcher_.setFuture({});
         return;
     }
-    contour_watcher_.setFuture(QtConcurrent::run([products = scene_.products] {
+    contour_watcher_.setFuture(QtConcurrent::run(backgroundPool(), [products = scene_.products] {
         SilentProgress silent;
         auto lines = surfaceContours(*products, contourInterval(*products), silent, {});
         return std::make_shared<const std::vector<Contour>>(lines ? std::move(*lines)
@@ -220,20 +222,21 @@ void MapView::paintLines(QPainter& painter) {
 void MapView::drawLinesBeside() {
     // One at a time; when it has come, the next paint sees whether another is needed.
     if (line_watcher_.isRunning()) return;
-    line_watcher_.setFuture(QtConcurrent::run([scene = scene_, transform = transform_, palette = palette(),
-                                               font = font(), ratio = devicePixelRatioF()] {
-        QImage image((transform.size_px * ratio).toSize(), QImage::Format_ARGB32_Premultiplied);
-        image.setDevicePixelRatio(ratio);
-        image.fill(Qt::transparent);
-        QPainter painter(&image);
-        painter.setFont(font);
-        drawContours(painter, scene, transform, palette);
-        drawTerraceEdges(painter, scene, transform);
-        drawPoints(painter, scene, transform);
-        drawTracks(painter, scene, transform);
-        painter.end();
-        return LinePicture{scene, transform, palette, image};
-    }));
+    line_watcher_.setFuture(
+        QtConcurrent::run(backgroundPool(), [scene = scene_, transform = transform_, palette = palette(),
+                                             font = font(), ratio = devicePixelRatioF()] {
+            QImage image((transform.size_px * ratio).toSize(), QImage::Format_ARGB32_Premultiplied);
+            image.setDevicePixelRatio(ratio);
+            image.fill(Qt::transparent);
+            QPainter painter(&image);
+            painter.setFont(font);
+            drawContours(painter, scene, transform, palette);
+            drawTerraceEdges(painter, scene, transform);
+            drawPoints(painter, scene, transform);
+            drawTracks(painter, scene, transform);
+            painter.end();
+            return LinePicture{scene, transform, palette, image};
+        }));
 }
 
 void MapView::resizeEvent(QResizeEvent*) {

@@ -21,6 +21,7 @@
 #include <QtConcurrent>
 #include <cmath>
 
+#include "app/gui/background.hpp"
 #include "app/gui/recent_surveys.hpp"
 #include "app/gui/report_words.hpp"
 #include "app/gui/theme.hpp"
@@ -230,7 +231,7 @@ void NewSurveyDialog::readFiles() {
     reading_ = true;
     NewSurveyRequest request;
     request.files = files_;
-    watcher_.setFuture(QtConcurrent::run([request, stop = stop_.get_token()] {
+    watcher_.setFuture(QtConcurrent::run(backgroundPool(), [request, stop = stop_.get_token()] {
         SilentProgress silent;
         return draftSurvey(request, silent, stop);
     }));

@@ -62,6 +62,15 @@ double tickStep(double least, bool whole) {
     return whole ? std::max(1.0, std::round(step)) : step;
 }
 
+// Broken at the space that is nearest to the middle.
+QString inTwoLines(const QString& text) {
+    qsizetype best = -1;
+    for (qsizetype i = text.indexOf(' '); i >= 0; i = text.indexOf(' ', i + 1)) {
+        if (best < 0 || std::abs(2 * i - text.size()) < std::abs(2 * best - text.size())) best = i;
+    }
+    return best < 0 ? text : text.left(best) + '\n' + text.mid(best + 1);
+}
+
 }  // namespace
 
 QColor seriesColour(SeriesInk ink) {
@@ -99,13 +108,16 @@ struct PlotCanvas::Parts {
         QCPItemRect* shade = nullptr;
         QCPItemStraightLine* cursor = nullptr;
         QCPLegend* legend = nullptr;
-        Range seen;  ///< of y, in what is visible of x
+        QString label;  ///< of y
+        Range seen;     ///< of y, in what is visible of x
     };
 
     explicit Parts(PlotCanvas* owner) : canvas(owner) {}
 
     void build();
     void addPanel(std::size_t index, QCPMarginGroup& margins);
+    QCPLegend* addLegend();
+    void fitTexts();
     void addSeries(Panel& panel, const PlotSeries& series);
     void addBars(Panel& panel, const PlotSeries& series);
     void addBoxes(Panel& panel, const PlotSeries& series);
@@ -298,13 +310,16 @@ void PlotCanvas::Parts::style(QCPAxisRect& rect) const {
 void PlotCanvas::Parts::nameCategories(QCPAxisRect& rect) {
     auto ticker = QSharedPointer<QCPAxisTickerText>::create();
     const qsizetype step = 1 + (plot.categories.size() - 1) / kNamedCategories;
+    constexpr qsizetype kUpright = 8;
     for (qsizetype i = 0; i < plot.categories.size(); i += step) {
-        ticker->addTick(static_cast<double>(i), plot.categories[i]);
+        QString name = plot.categories[i];
+        if (plot.categories.size() <= kUpright) name.replace(' ', '\n');
+        ticker->addTick(static_cast<double>(i), name);
     }
     QCPAxis* axis = rect.axis(QCPAxis::atBottom);
     axis->setTicker(ticker);
     axis->grid()->setVisible(false);
-    if (plot.categories.size() > 8) axis->setTickLabelRotation(-60);
+    if (plot.categories.size() > kUpright) axis->setTickLabelRotation(-60);
 }
 
 void PlotCanvas::Parts::addBand(Shown& shown, QCPAxis* x, QCPAxis* y, const QColor& colour) {
@@ -388,41 +403,69 @@ void PlotCanvas::Parts::addSeries(Panel& panel, const PlotSeries& series) {
     panel.shown.push_back(std::move(shown));
 }
 
+// Above its panel, at the right.
+QCPLegend* PlotCanvas::Parts::addLegend() {
+    constexpr double kAsSmallAsMayBe = 0.001;
+    const int row = view->plotLayout()->rowCount();
+    auto* line = new QCPLayoutGrid;
+    view->plotLayout()->addElement(row, 0, line);
+    view->plotLayout()->setRowStretchFactor(row, kAsSmallAsMayBe);
+    auto* legend = new QCPLegend;
+    line->addElement(0, 0, new QCPLayoutElement(view));
+    line->addElement(0, 1, legend);
+    line->setColumnStretchFactor(1, kAsSmallAsMayBe);
+    legend->setLayer("legend");
+    legend->setBrush(Qt::NoBrush);
+    legend->setBorderPen(Qt::NoPen);
+    legend->setFont(canvas->font());
+    legend->setTextColor(canvas->palette().color(QPalette::Text));
+    legend->setRowSpacing(0);
+    legend->setMargins(QMargins(6, 2, 16, 0));
+    legend->setFillOrder(QCPLegend::foColumnsFirst);
+    return legend;
+}
+
+// As many columns of a legend as there is room for; the name of an axis in two lines where one is too long.
+void PlotCanvas::Parts::fitTexts() {
+    constexpr int kBeside_px = 24;
+    for (Panel& panel : panels) {
+        if (panel.legend != nullptr && panel.legend->itemCount() > 0) {
+            int widest = 1;
+            for (int i = 0; i < panel.legend->itemCount(); ++i) {
+                widest = std::max(widest, panel.legend->item(i)->minimumOuterSizeHint().width());
+            }
+            widest += panel.legend->columnSpacing();
+            panel.legend->setWrap(
+                std::clamp((view->width() - kBeside_px) / widest, 1, panel.legend->itemCount()));
+            panel.legend->setFillOrder(QCPLegend::foColumnsFirst, true);
+        }
+        QCPAxis* y = panel.rect->axis(QCPAxis::atLeft);
+        const int room = view->height() / static_cast<int>(panels.size()) - 2 * kBeside_px;
+        y->setLabel(QFontMetrics(y->labelFont()).horizontalAdvance(panel.label) <= room
+                        ? panel.label
+                        : inTwoLines(panel.label));
+    }
+}
+
 void PlotCanvas::Parts::addPanel(std::size_t index, QCPMarginGroup& margins) {
     const PlotPanel& source = plot.panels[index];
     const bool lowest = index + 1 == plot.panels.size();
     Panel panel;
     panel.rect = new QCPAxisRect(view, true);
-    view->plotLayout()->addElement(static_cast<int>(index), 0, panel.rect);
+    const bool legend_needed =
+        source.series.size() > 1 || (source.series.size() == 1 && !source.series.front().half_band.empty());
+    if (legend_needed) panel.legend = addLegend();
+    view->plotLayout()->addElement(view->plotLayout()->rowCount(), 0, panel.rect);
     style(*panel.rect);
     panel.rect->setMarginGroup(QCP::msLeft | QCP::msRight, &margins);
     panel.rect->setMinimumMargins(QMargins(48, index == 0 ? 12 : 4, 16, 4));
     QCPAxis *x = panel.rect->axis(QCPAxis::atBottom), *y = panel.rect->axis(QCPAxis::atLeft);
-    y->setLabel(source.unit.isEmpty() ? source.label : QString("%1 (%2)").arg(source.label, source.unit));
+    panel.label = source.unit.isEmpty() ? source.label : QString("%1 (%2)").arg(source.label, source.unit);
     y->setNumberFormat("f");
     if (!plot.categories.isEmpty()) nameCategories(*panel.rect);
     x->setTickLabels(lowest);
     if (lowest) {
         x->setLabel(plot.x_unit.isEmpty() ? plot.x_label : QString("%1 (%2)").arg(plot.x_label, plot.x_unit));
-    }
-    const bool legend_needed =
-        source.series.size() > 1 || (source.series.size() == 1 && !source.series.front().half_band.empty());
-    if (legend_needed) {
-        auto* legend = panel.legend = new QCPLegend;
-        panel.rect->insetLayout()->addElement(legend, Qt::AlignTop | Qt::AlignRight);
-        panel.rect->insetLayout()->setMargins(QMargins(8, 8, 8, 8));
-        legend->setLayer("legend");
-        QColor ground = canvas->palette().color(QPalette::Base);
-        ground.setAlpha(215);
-        legend->setBrush(ground);
-        legend->setBorderPen(Qt::NoPen);
-        legend->setFont(canvas->font());
-        legend->setTextColor(canvas->palette().color(QPalette::Text));
-        legend->setRowSpacing(0);
-        legend->setMargins(QMargins(6, 2, 6, 2));
-        // In one row: it stands in the way of less.
-        legend->setFillOrder(QCPLegend::foColumnsFirst);
-        legend->setWrap(4);
     }
     const int plottables = view->plottableCount();
     for (const PlotSeries& series : source.series) addSeries(panel, series);
@@ -465,6 +508,7 @@ void PlotCanvas::Parts::build() {
     auto* margins = new QCPMarginGroup(view);
     for (std::size_t i = 0; i < plot.panels.size(); ++i) addPanel(i, *margins);
     view->plotLayout()->setRowSpacing(4);
+    fitTexts();
     placeShade();
 }
 
@@ -681,7 +725,12 @@ bool PlotCanvas::eventFilter(QObject* watched, QEvent* event) {
         case QEvent::Resize:
             // As many points as there are columns now; the plot itself has its new size after this event.
             QMetaObject::invokeMethod(
-                this, [this] { parts_->setX(parts_->from, parts_->to); }, Qt::QueuedConnection);
+                this,
+                [this] {
+                    parts_->fitTexts();
+                    parts_->setX(parts_->from, parts_->to);
+                },
+                Qt::QueuedConnection);
             break;
         default:
             break;

@@ -12,12 +12,13 @@
 #include <QPrinter>
 #include <QSaveFile>
 #include <QScrollArea>
-#include <QSettings>
 #include <QToolBar>
 #include <QVBoxLayout>
 #include <QtConcurrent>
 #include <algorithm>
 
+#include "app/gui/background.hpp"
+#include "app/gui/recent_surveys.hpp"
 #include "app/gui/theme.hpp"
 
 namespace terrawalk::gui {
@@ -98,17 +99,18 @@ void ReportView::make() {
     if (!products_) return;
     current_ = true;
     const QString file = folder_.filePath("report.pdf");
-    watcher_.setFuture(QtConcurrent::run([survey = survey_, products = products_, file]() -> Made {
-        if (const auto written = writeReport(*survey, *products, file.toStdString()); !written) {
-            return {{}, QString::fromStdString(written.error().text()), {}};
-        }
-        const auto document = opened(file);
-        if (!document) return {{}, tr("The report cannot be drawn."), {}};
-        Made made{file, {}, {}};
-        for (int page = 0; page < document->numPages(); ++page)
-            made.pages.push_back(drawn(*document, page, kScreen_dpi));
-        return made;
-    }));
+    watcher_.setFuture(
+        QtConcurrent::run(backgroundPool(), [survey = survey_, products = products_, file]() -> Made {
+            if (const auto written = writeReport(*survey, *products, file.toStdString()); !written) {
+                return {{}, QString::fromStdString(written.error().text()), {}};
+            }
+            const auto document = opened(file);
+            if (!document) return {{}, tr("The report cannot be drawn."), {}};
+            Made made{file, {}, {}};
+            for (int page = 0; page < document->numPages(); ++page)
+                made.pages.push_back(drawn(*document, page, kScreen_dpi));
+            return made;
+        }));
     layOut();
 }
 
@@ -167,10 +169,11 @@ bool ReportView::saveTo(const QString& path) {
 }
 
 void ReportView::askAndSave() {
-    const QString folder = QSettings().value("last_folder").toString();
-    const QString path =
-        QFileDialog::getSaveFileName(this, tr("Save the report"), folder + "/report.pdf", tr("PDF (*.pdf)"));
-    if (!path.isEmpty()) saveTo(path);
+    const QString path = QFileDialog::getSaveFileName(this, tr("Save the report"),
+                                                      lastFolder() + "/report.pdf", tr("PDF (*.pdf)"));
+    if (path.isEmpty()) return;
+    rememberFolder(path);
+    saveTo(path);
 }
 
 void ReportView::askAndPrint() {

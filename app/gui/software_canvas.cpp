@@ -5,6 +5,7 @@
 #include <QtConcurrent>
 #include <cstdint>
 
+#include "app/gui/background.hpp"
 #include "app/gui/software_rasteriser.hpp"
 #include "app/gui/terrain_canvas.hpp"
 
@@ -81,9 +82,10 @@ class SoftwareCanvas final : public TerrainCanvas {
     void start() {
         if (watcher_.isRunning() || size().isEmpty()) return;
         asked_for_ = size();
-        watcher_.setFuture(QtConcurrent::run([this, frame = frame_, size = asked_for_, number = wanted_] {
-            return draw(frame, size, number);
-        }));
+        watcher_.setFuture(
+            QtConcurrent::run(backgroundPool(), [this, frame = frame_, size = asked_for_, number = wanted_] {
+                return draw(frame, size, number);
+            }));
     }
     void take(const Picture& made) {
         image_ = made.image;

@@ -84,6 +84,11 @@ QPushButton* StepsPanel::addButton(StepCard& card, const QString& name, const QS
     return button;
 }
 
+void StepsPanel::tune() {
+    session_.tune(static_cast<OptimiserKind>(optimiser_->currentData().toInt()),
+                  static_cast<std::size_t>(repeats_->value()));
+}
+
 void StepsPanel::fillCards() {
     auto* open = addButton(*cards_[StepKind::Import], "step_open", tr("Open a survey…"),
                            tr("A survey.json, or the folder that holds one"));
@@ -93,10 +98,7 @@ void StepsPanel::fillCards() {
         tr("Searches noise parameters of the method that make errors at control marks small, and takes "
            "them only where they hold out better on marks left out"));
     buildSearch(*cards_[StepKind::Tune]);
-    connect(tune_, &QPushButton::clicked, this, [this] {
-        session_.tune(static_cast<OptimiserKind>(optimiser_->currentData().toInt()),
-                      static_cast<std::size_t>(repeats_->value()));
-    });
+    connect(tune_, &QPushButton::clicked, this, &StepsPanel::tune);
     buildCheck(*cards_[StepKind::Check]);
     export_ = addButton(*cards_[StepKind::Export], "step_export", tr("Export…"),
                         tr("Writes DEM, mesh, tracks and report into a folder"));

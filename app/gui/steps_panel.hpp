@@ -23,6 +23,8 @@ class StepsPanel : public QWidget {
     explicit StepsPanel(SurveySession& session, QWidget* parent = nullptr);
 
     void themeChanged();
+    /// With the optimiser and the repeats that are chosen here.
+    void tune();
 
   Q_SIGNALS:
     void openAsked();

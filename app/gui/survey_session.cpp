@@ -95,7 +95,7 @@ void SurveySession::open(const fs::path& path, bool then_process) {
 }
 
 void SurveySession::finishOpening(const fs::path& path, Survey survey, SurveyMap map) {
-    if (autosave_.isActive()) autosave();
+    keepChanges();
     path_ = path;
     survey_ = std::make_shared<const Survey>(std::move(survey));
     logged_map_ = std::make_shared<const SurveyMap>(std::move(map));
@@ -376,6 +376,10 @@ fs::path SurveySession::autosaveFile() const {
     const QByteArray name =
         QCryptographicHash::hash(project.toUtf8(), QCryptographicHash::Sha256).toHex().left(24);
     return (folder + "/" + QString::fromLatin1(name) + ".json").toStdString();
+}
+
+void SurveySession::keepChanges() {
+    if (autosave_.isActive()) autosave();
 }
 
 void SurveySession::autosave() {

@@ -41,6 +41,10 @@ class SurveySession : public QObject {
   public:
     explicit SurveySession(QObject* parent = nullptr);
 
+    /// Writes changes that are not saved where open() finds them, at once. It happens by itself a moment
+    /// after each change.
+    void keepChanges();
+
     /// Reads the survey of a project file, or of the survey.json in a folder, with the settings that were
     /// saved beside it; what was open stays open where that fails. Changes that were not saved when the
     /// program ended come back, undoably.

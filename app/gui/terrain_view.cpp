@@ -15,6 +15,7 @@
 #include <functional>
 #include <utility>
 
+#include "app/gui/background.hpp"
 #include "app/gui/map_view.hpp"
 #include "app/gui/point_card.hpp"
 #include "app/gui/round_numbers.hpp"
@@ -205,7 +206,8 @@ void TerrainView::build() {
     // The points of this surface, whatever is shown next.
     const std::shared_ptr<const std::vector<Eigen::Vector3d>> points(map_.survey,
                                                                      &map_.survey->ground_points_m);
-    watcher_.setFuture(QtConcurrent::run([products = map_.products, shown = map_.shown, points] {
+    watcher_.setFuture(QtConcurrent::run(backgroundPool(), [products = map_.products, shown = map_.shown,
+                                                            points] {
         Built built;
         built.picture =
             std::make_shared<const RasterPicture>(rasterPicture(*products, shown.layer, shown.change.get()));

@@ -86,6 +86,8 @@ class WindowTest : public QObject {
     void cancelStopsSoonAndKeepsWhatWasThere();
     void windowAnswersWhileItWorks();
     void unsavedChangesComeBackAfterTheProcessWasKilled();
+    void changesOfTheLastMomentComeBack();
+    void arrowKeysChooseInTheTree();
     void savedSettingsReplayedByTheCommandLineGiveTheSameBytes();
     void exportDialogRefusesWhatCannotBe();
     void themeAndLanguageSwitch();
@@ -417,6 +419,33 @@ void WindowTest::unsavedChangesComeBackAfterTheProcessWasKilled() {
     QVERIFY(messages().contains("Unsaved changes"));
     action("undo").trigger();
     QCOMPARE(session().settings().config().surface.cell_m, 0.0);
+}
+
+void WindowTest::changesOfTheLastMomentComeBack() {
+    openSample();
+    QVERIFY(session().changeSetting("surface.cell_m", "0.75"));
+    window_->close();
+    desktop_.reset();
+    desktop_ = std::make_unique<Desktop>();
+    window_ = &desktop_->window();
+    window_->show();
+    openSample();
+    QCOMPARE(session().settings().config().surface.cell_m, 0.75);
+    QVERIFY(window_->isWindowModified());
+}
+
+void WindowTest::arrowKeysChooseInTheTree() {
+    openSample();
+    auto* tree = window_->findChild<QTreeView*>("survey_tree");
+    tree->setFocus();
+    QString first;
+    for (int press = 0; press < 8; ++press) {
+        QTest::keyClick(tree, Qt::Key_Down);
+        const QString item = session().selection().item();
+        if (first.isEmpty()) first = item;
+        if (!item.isEmpty() && item != first) return;
+    }
+    QFAIL("two items of the tree were to be chosen in turn");
 }
 
 void WindowTest::savedSettingsReplayedByTheCommandLineGiveTheSameBytes() {

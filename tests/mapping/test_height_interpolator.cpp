@@ -95,9 +95,11 @@ TEST_P(EachMethod, GivesTheSameBytesForAnyOrderOfThePointsAndAnyNumberOfThreads)
                           geometry.size() * sizeof(float)),
               0);
     ASSERT_EQ(one.variances_m2.size(), other.variances_m2.size());
-    EXPECT_EQ(std::memcmp(one.variances_m2.data(), other.variances_m2.data(),
-                          one.variances_m2.size() * sizeof(float)),
-              0);
+    if (!one.variances_m2.empty()) {
+        EXPECT_EQ(std::memcmp(one.variances_m2.data(), other.variances_m2.data(),
+                              one.variances_m2.size() * sizeof(float)),
+                  0);
+    }
 }
 
 // The points lie where doubles of map coordinates step by 5e-10 m; slopes here are below 1.
