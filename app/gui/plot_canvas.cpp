@@ -31,7 +31,6 @@ constexpr double kYMargin = 0.06;
 constexpr double kDragSlack_px = 4.0;
 constexpr double kDot_px = 3.5, kMarkDot_px = 6.0;
 constexpr double kYTicks = 5.0;
-constexpr double kAboveLegend_px = 12.0, kBelowPanel_px = 24.0;
 constexpr double kLine_px = 1.5;
 constexpr std::size_t kMostWidePoints = 600;
 // More categories than that have no room for their names.
@@ -593,21 +592,15 @@ void PlotCanvas::Parts::refill(std::size_t index) {
 
 void PlotCanvas::Parts::scaleY(std::size_t index) {
     const PlotPanel& source = plot.panels[index];
-    const Range& seen = panels[index].seen;
+    Range seen = panels[index].seen;
+    if (source.highest && seen.low < *source.highest) seen.high = std::min(seen.high, *source.highest);
     QCPAxis* axis = panels[index].rect->axis(QCPAxis::atLeft);
     // A value that stays the same has a middle, and as much room as its last digit deserves.
     const double least = 0.6 * std::pow(10.0, -source.decimals);
     const double margin =
         std::max(kYMargin * (seen.high - seen.low), seen.high - seen.low < least ? least : 0.0);
     const double low = source.from_zero && seen.low >= 0.0 ? 0.0 : seen.low - margin;
-    double high = seen.high + margin;
-    if (QCPLegend* legend = panels[index].legend) {
-        // Nothing is drawn behind the legend.
-        // As high as panels will be: they are laid out later.
-        const double legend_px = legend->minimumOuterSizeHint().height() + kAboveLegend_px;
-        const double panel_px = view->height() / static_cast<double>(panels.size()) - kBelowPanel_px;
-        high += (high - low) * legend_px / std::max(panel_px - legend_px, legend_px);
-    }
+    const double high = seen.high + margin;
     axis->setRange(low, high);
     const double step = tickStep((high - low) / kYTicks, source.decimals == 0);
     auto ticker = QSharedPointer<QCPAxisTickerFixed>::create();

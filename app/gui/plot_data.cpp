@@ -90,6 +90,26 @@ void addChannels(Plot& plot, const ArrayLog& log, const QString& label, const QS
     if (!panel.series.empty()) plot.panels.push_back(std::move(panel));
 }
 
+// Readings of nothing, as far away as the range finder has digits for, would press the others flat.
+void keepInSight(Plot& plot) {
+    constexpr double kShare = 0.95;
+    constexpr double kFarther = 3.0;
+    PlotPanel& panel = plot.panels.back();
+    std::vector<double> values;
+    for (const double y : panel.series.front().y) {
+        if (present(y)) values.push_back(y);
+    }
+    std::sort(values.begin(), values.end());
+    const double limit =
+        kFarther * values[static_cast<std::size_t>(kShare * static_cast<double>(values.size() - 1))];
+    const auto beyond = values.end() - std::upper_bound(values.begin(), values.end(), limit);
+    if (beyond == 0 || limit <= 0.0) return;
+    panel.highest = limit;
+    plot.note = QCoreApplication::translate("PlotData", "%1 readings lie above the picture, up to %2 m.")
+                    .arg(beyond)
+                    .arg(values.back(), 0, 'f', 1);
+}
+
 constexpr double kDegrees = 180.0 / kPi;
 
 Plot sensorPlot(PlotKind kind, const Run& run) {
@@ -146,6 +166,7 @@ Plot sensorPlot(PlotKind kind, const Run& run) {
         default:
             addChannels(plot, log, QCoreApplication::translate("PlotData", "Range to the ground"), "m", 3,
                         {{Channel::Range, QT_TRANSLATE_NOOP("PlotData", "Range")}});
+            if (log.has(Channel::Range) && !plot.panels.empty()) keepInSight(plot);
             addChannels(plot, log, QCoreApplication::translate("PlotData", "Strength"), {}, 0,
                         {{Channel::RangeStrength, QT_TRANSLATE_NOOP("PlotData", "Strength")}});
             break;

@@ -3,6 +3,7 @@
 #include <QString>
 #include <QStringList>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "app/pipeline/process.hpp"
@@ -63,7 +64,8 @@ struct PlotPanel {
     QString unit;  ///< of y; empty for a pure number
     int decimals = 2;
     std::vector<PlotSeries> series;
-    bool from_zero = false;  ///< y starts at zero
+    bool from_zero = false;                        ///< y starts at zero
+    std::optional<double> highest = std::nullopt;  ///< y ends here, whatever lies above
 };
 
 struct Plot {

@@ -85,6 +85,10 @@
     <context>
         <name>PlotData</name>
         <message>
+            <source>%1 readings lie above the picture, up to %2 m.</source>
+            <translation>%1 个读数在图外上方，最大 %2 m。</translation>
+        </message>
+        <message>
             <source>Fix code</source>
             <translation>定位代码</translation>
         </message>
