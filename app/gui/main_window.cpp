@@ -197,7 +197,12 @@ void MainWindow::buildDocks() {
         session_.selection().selectItem(first.data(SurveyTreeModel::IdRole).toString());
     };
     connect(tree_, &QTreeView::clicked, this, choose);
-    connect(tree_->selectionModel(), &QItemSelectionModel::currentChanged, this, choose);
+    // The tree follows what is selected elsewhere, a stretch of a run perhaps: that is no choice of the run.
+    connect(tree_->selectionModel(), &QItemSelectionModel::currentChanged, this,
+            [this, choose](const QModelIndex& index) {
+                const QVariant id = index.siblingAtColumn(0).data(SurveyTreeModel::IdRole);
+                if (id.toString() != session_.selection().item()) choose(index);
+            });
     connect(&tree_model_, &SurveyTreeModel::visibilityChanged, this,
             [this](int kind, const QString& id, bool visible) {
                 ViewState& state = session_.viewState();

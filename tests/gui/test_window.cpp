@@ -40,6 +40,7 @@
 #include "app/gui/report_words.hpp"
 #include "app/gui/setting_editor.hpp"
 #include "app/gui/start_page.hpp"
+#include "app/gui/survey_tree_model.hpp"
 #include "app/gui/terrain_view.hpp"
 #include "app/gui/theme.hpp"
 
@@ -438,6 +439,12 @@ void WindowTest::arrowKeysChooseInTheTree() {
     openSample();
     auto* tree = window_->findChild<QTreeView*>("survey_tree");
     tree->setFocus();
+    const QString run = QString::fromStdString(session().survey()->runs.back().id);
+    session().selection().select({run, 10.0, 20.0});
+    QCOMPARE(tree->currentIndex().siblingAtColumn(0).data(SurveyTreeModel::IdRole).toString(), run);
+    QVERIFY(session().selection().stretch().has_value());  // the tree follows, and chooses nothing
+    session().selection().clear();
+    tree->setCurrentIndex({});
     QString first;
     for (int press = 0; press < 8; ++press) {
         QTest::keyClick(tree, Qt::Key_Down);
