@@ -1,6 +1,7 @@
 #include "app/gui/accuracy_model.hpp"
 
 #include <QFont>
+#include <cmath>
 #include <utility>
 
 #include "app/gui/report_words.hpp"
@@ -10,7 +11,9 @@ namespace terrawalk::gui {
 namespace {
 
 QString length(double metres) {
-    return QString::number(metres, 'f', 3).replace('-', QChar(0x2212));
+    // No minus before a zero.
+    const double rounded = std::round(metres * 1000.0) / 1000.0;
+    return QString::number(rounded == 0.0 ? 0.0 : rounded, 'f', 3).replace('-', QChar(0x2212));
 }
 
 QString cell(const AccuracyGroup& group, int column) {
@@ -89,9 +92,9 @@ QVariant AccuracyModel::headerData(int section, Qt::Orientation orientation, int
         case CountColumn:
             return tr("n");
         case PlanRmse:
-            return tr("Plan RMSE");
+            return tr("Plan RMSE").replace(' ', '\n');
         case HeightMean:
-            return tr("Height mean");
+            return tr("Height mean").replace(' ', '\n');
         case HeightSd:
             return tr("SD");
         case HeightRmse:

@@ -138,7 +138,6 @@ void AccuracyPanel::show(std::shared_ptr<const Products> products) {
     model_.show(report.accuracy, report.headline);
     groups_->resizeColumnsToContents();
     groups_->setHorizontalScrollBarPolicy(Qt::ScrollBarAsNeeded);
-    groups_->horizontalHeader()->setSectionResizeMode(AccuracyModel::QuantityColumn, QHeaderView::Stretch);
     fitHeight(*groups_);
     fillWords(report);
     fillMarks(report);

@@ -50,7 +50,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kLong_ms = 120000;
+constexpr int kLong_ms = 300000;
 
 QString text(const fs::path& path) {
     return QString::fromStdString(path.string());
