@@ -161,11 +161,13 @@ void MainWindow::buildViews() {
         session_.openSearches(file.toStdString());
     });
     connect(plots_, &PlotsView::excludeAsked, this,
-            [this](const TrackStretch& stretch, const QString& sensor) {
+            [this](const std::vector<TrackStretch>& stretches, const QString& sensor) {
                 for (const auto& [value, name] : kEditedSensors) {
-                    if (sensor.toStdString() == name) excludeStretch(stretch, value);
+                    if (sensor.toStdString() == name) excludeStretches(stretches, value);
                 }
             });
+    connect(plots_, &PlotsView::excludeMarkAsked, this,
+            [this](const QString& mark) { leaveOut(SurveyTreeModel::MarkItem, mark, true); });
 }
 
 QDockWidget* MainWindow::addDock(Qt::DockWidgetArea area, const QString& name, const QString& title,
@@ -250,7 +252,10 @@ void MainWindow::buildDocks() {
     readout_->setObjectName("readout");
     state_ = new QLabel;
     state_->setObjectName("quiet");
+    crs_ = new QLabel;
+    crs_->setObjectName("crs");
     statusBar()->addPermanentWidget(readout_);
+    statusBar()->addPermanentWidget(crs_);
     statusBar()->addPermanentWidget(state_);
     statusBar()->setSizeGripEnabled(false);
 }
@@ -375,13 +380,11 @@ void MainWindow::buildEditMenu() {
                                                         {EditedSensor::Flow, tr("optical flow")},
                                                         {EditedSensor::Attitude, tr("attitude")}};
     for (const auto& [sensor, words] : sensors) {
-        connect(only->addAction(words), &QAction::triggered, this, [this, one = sensor] {
-            if (session_.selection().stretch()) excludeStretch(*session_.selection().stretch(), one);
-        });
+        connect(only->addAction(words), &QAction::triggered, this,
+                [this, one = sensor] { excludeStretches(session_.selection().stretches(), one); });
     }
     connect(only, &QMenu::aboutToShow, this, [this, only] {
-        for (QAction* action : only->actions())
-            action->setEnabled(session_.selection().stretch().has_value());
+        for (QAction* action : only->actions()) action->setEnabled(!session_.selection().stretches().empty());
     });
     menu.addSeparator();
     menu.addActions(map_->toolActions());
@@ -493,7 +496,7 @@ void MainWindow::enableActions() {
                                                    {"cancel", busy},
                                                    {"export", made && !busy},
                                                    {"command", open},
-                                                   {"exclude", !session_.selection().item().isEmpty()}};
+                                                   {"exclude", !session_.selection().empty()}};
     for (const auto& [name, enabled] : states) actions_.at(name)->setEnabled(enabled);
     state_->setText(!open                 ? QString()
                     : busy                ? tr("working")
@@ -570,6 +573,8 @@ void MainWindow::showProducts() {
     }
     session_.viewState().setAvailable(layers);
     map_->show(session_.map(), session_.products());
+    crs_->setText(session_.map() ? text(session_.map()->crs) : QString());
+    crs_->setToolTip(session_.map() ? text(session_.map()->height_reference) : QString());
     fillInTurns({[this] { terrain_->show(session_.shownSurvey(), session_.map(), session_.products()); },
                  [this] { plots_->show(session_.shownSurvey(), session_.map(), session_.products()); },
                  [this] { accuracy_->show(session_.products()); },
@@ -646,11 +651,22 @@ void MainWindow::takeLine(MapTool tool, const QPolygonF& vertices_m) {
     say(MessageKind::Info, tr("Line drawn: process again, and the surface keeps to it."));
 }
 
-void MainWindow::excludeStretch(TrackStretch stretch, EditedSensor sensor) {
+void MainWindow::excludeStretches(std::vector<TrackStretch> stretches, EditedSensor sensor) {
+    if (stretches.empty()) return;
     SurveyEdits edits = session_.edits();
-    edits.stretches.push_back({nameOf(stretch.run), stretch.from_s, stretch.to_s, sensor});
-    session_.changeEdits(edits, tr("exclude a stretch"));
+    for (const TrackStretch& s : stretches)
+        edits.stretches.push_back({nameOf(s.run), s.from_s, s.to_s, sensor});
+    session_.changeEdits(edits, tr("exclude %n stretches", nullptr, static_cast<int>(stretches.size())));
     session_.selection().clear();
+    if (stretches.size() > 1) {
+        double sum_s = 0.0;
+        for (const TrackStretch& s : stretches) sum_s += s.to_s - s.from_s;
+        return say(MessageKind::Info,
+                   tr("%1 stretches, %2 s in all, are left out: process again to see what it changes.")
+                       .arg(stretches.size())
+                       .arg(sum_s, 0, 'f', 1));
+    }
+    const TrackStretch& stretch = stretches.front();
     say(MessageKind::Info, tr("%1 is left out from %2 to %3 s: process again to see what it changes.")
                                .arg(stretch.run, QString::number(stretch.from_s, 'f', 1),
                                     QString::number(stretch.to_s, 'f', 1)));
@@ -666,7 +682,7 @@ void MainWindow::leaveOut(int kind, const QString& id, bool out) {
 
 void MainWindow::excludeSelected() {
     const Selection& selection = session_.selection();
-    if (selection.stretch()) return excludeStretch(*selection.stretch(), EditedSensor::All);
+    if (!selection.stretches().empty()) return excludeStretches(selection.stretches(), EditedSensor::All);
     const auto survey = session_.survey();
     if (!survey || selection.item().isEmpty()) return;
     const bool run = std::any_of(survey->runs.begin(), survey->runs.end(),

@@ -100,7 +100,7 @@ class MainWindow : public QMainWindow {
     void askPlace(QPointF map_m);
     void takeLine(MapTool tool, const QPolygonF& vertices_m);
     /// By value: the selection, which it may come from, ends here.
-    void excludeStretch(TrackStretch stretch, EditedSensor sensor);
+    void excludeStretches(std::vector<TrackStretch> stretches, EditedSensor sensor);
     void excludeSelected();
     void leaveOut(int kind, const QString& id, bool out);
     void treeMenu(const QPoint& at);
@@ -130,6 +130,7 @@ class MainWindow : public QMainWindow {
     QTreeView* tree_ = nullptr;
     QListView* messages_ = nullptr;
     QLabel* readout_ = nullptr;
+    QLabel* crs_ = nullptr;
     QLabel* state_ = nullptr;
     QList<QDockWidget*> docks_;
     QByteArray layout_;  ///< of the docks, while the start page hides them

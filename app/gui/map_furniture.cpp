@@ -89,6 +89,8 @@ QString titleOf(TrackColouring colouring) {
             return QCoreApplication::translate("MapFurniture", "Track, plan 1 σ");
         case TrackColouring::SigmaHeight:
             return QCoreApplication::translate("MapFurniture", "Track, height 1 σ");
+        case TrackColouring::Residual:
+            return QCoreApplication::translate("MapFurniture", "Track, residual");
         case TrackColouring::Run:
         case TrackColouring::Fix:
             break;
@@ -96,30 +98,40 @@ QString titleOf(TrackColouring colouring) {
     return {};
 }
 
+LegendPart classesPart(const QString& title, const std::vector<std::pair<QString, QColor>>& classes) {
+    LegendPart part{title, {}};
+    for (const auto& [name, colour] : classes) {
+        part.legend.classes << name;
+        part.legend.ramp.push_back(colour);
+    }
+    return part;
+}
+
+QString unitOf(TrackColouring colouring) {
+    return colouring == TrackColouring::Speed ? "m/s" : colouring == TrackColouring::Residual ? "σ" : "m";
+}
+
 std::vector<LegendPart> legendParts(const MapScene& scene) {
     std::vector<LegendPart> parts;
     if (scene.raster && !scene.raster->levels.empty()) {
         parts.push_back({titleOf(scene.raster->layer), scene.raster->legend});
     }
+    if (const auto classes = pointClasses(scene); !classes.empty()) {
+        parts.push_back(classesPart(QCoreApplication::translate("MapFurniture", "Ground points"), classes));
+    }
     if (!scene.shown.tracks) return parts;
     if (const auto classes = fixClasses(scene); !classes.empty()) {
-        LegendPart part{QCoreApplication::translate("MapFurniture", "GNSS fix"), {}};
-        for (const auto& [name, colour] : classes) {
-            part.legend.classes << name;
-            part.legend.ramp.push_back(colour);
-        }
-        parts.push_back(std::move(part));
+        parts.push_back(classesPart(QCoreApplication::translate("MapFurniture", "GNSS fix"), classes));
     }
     if (const auto range = trackRange(scene)) {
         std::vector<QColor> ramp;
         for (const Colour& c : sequentialRamp()) ramp.emplace_back(c[0], c[1], c[2]);
-        const bool speed = scene.shown.colouring == TrackColouring::Speed;
         RasterLegend legend;
         legend.ramp = std::move(ramp);
         legend.low = range->low;
         legend.high = range->high;
         legend.open_above = scene.shown.colouring != TrackColouring::Height;
-        legend.unit = speed ? "m/s" : "m";
+        legend.unit = unitOf(scene.shown.colouring);
         parts.push_back({titleOf(scene.shown.colouring), std::move(legend)});
     }
     return parts;

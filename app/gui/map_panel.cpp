@@ -72,9 +72,9 @@ void MapPanel::addColourings() {
     colourings_->setObjectName("colourings");
     colourings_->setAccessibleName(tr("Colour of the tracks"));
     colourings_->setToolTip(tr("What the tracks are coloured by"));
-    colourings_->setWhatsThis(tr(
-        "What the tracks are coloured by: one colour for each run, the GNSS fix, speed, height, or standard "
-        "errors of the fused track."));
+    colourings_->setWhatsThis(
+        tr("What the tracks are coloured by: one colour for each run, the GNSS fix, speed, height, standard "
+           "errors of the fused track, or by how many of them the worst reading was off."));
     for (const auto& [colouring, name] : colouringNames())
         colourings_->addItem(name, static_cast<int>(colouring));
     connect(colourings_, &QComboBox::currentIndexChanged, this,
@@ -120,6 +120,9 @@ void MapPanel::addTools() {
             QKeySequence("V"));
     addTool(MapTool::SelectStretch, "select_stretch", tr("Select a stretch"),
             tr("Drag along a track, then exclude what was selected."), QKeySequence("S"));
+    addTool(MapTool::SelectArea, "select_area", tr("Select an area"),
+            tr("Drag a rectangle: all passes through it are selected, with Shift beside earlier ones."),
+            QKeySequence("A"));
     addTool(MapTool::Measure, "measure", tr("Measure"),
             tr("Click points; length and area stand beside them. A double click ends it."),
             QKeySequence("M"));

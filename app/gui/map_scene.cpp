@@ -29,6 +29,8 @@ std::vector<double> valuesOf(const MapTrack& track, TrackColouring colouring) {
             return track.sigma_plan_m;
         case TrackColouring::SigmaHeight:
             return track.sigma_height_m;
+        case TrackColouring::Residual:
+            return track.residual_over_sigma;
         case TrackColouring::Height: {
             std::vector<double> heights_m;
             for (const Eigen::Vector3d& p : track.map_m) heights_m.push_back(p.z());
@@ -55,6 +57,7 @@ constexpr std::array<FixClass, 5> kFixClasses{{
     {fix_code::kNone, QT_TRANSLATE_NOOP("MapScene", "none"), qRgb(213, 94, 0)},
 }};
 constexpr QRgb kUnknownFix = qRgb(120, 120, 120);
+constexpr QRgb kNoValue = qRgb(160, 160, 160);
 
 QRgb fixColour(int code) {
     const auto found = std::find_if(kFixClasses.begin(), kFixClasses.end(),
@@ -181,6 +184,8 @@ std::optional<ValueRange> trackRange(const MapScene& scene) {
                      [](double v) { return std::isfinite(v); });
     }
     if (all.empty()) return std::nullopt;
+    // Alike on every survey: what lies within 2 sigma is as expected.
+    if (scene.shown.colouring == TrackColouring::Residual) return ValueRange{0.0, 4.0};
     // The few largest values must not take the colours from all others.
     const double high = quantile(all, 0.98);
     const double low = scene.shown.colouring == TrackColouring::Height ? quantile(std::move(all), 0.02) : 0.0;
@@ -202,6 +207,7 @@ TrackInk trackInk(const MapScene& scene, std::size_t index) {
         };
     }
     return [range = *range, own = std::move(own), ramp = sequentialRamp()](std::size_t i) {
+        if (!std::isfinite(own[i])) return kNoValue;
         const Colour c = rampColour(ramp, (own[i] - range.low) / (range.high - range.low));
         return qRgb(c[0], c[1], c[2]);
     };
@@ -242,6 +248,27 @@ std::optional<TrackHit> nearestOnTracks(const MapScene& scene, const MapTransfor
     return best;
 }
 
+std::vector<TrackStretch> stretchesWithin(const MapScene& scene, const MapTransform& transform,
+                                          const QRectF& screen_px) {
+    std::vector<TrackStretch> found;
+    if (!scene.survey || !scene.shown.tracks) return found;
+    for (const MapTrack& track : scene.survey->tracks) {
+        const QString id = text(track.run_id);
+        if (scene.shown.hidden_runs.contains(id)) continue;
+        bool inside = false;
+        for (std::size_t i = 0; i < track.map_m.size(); ++i) {
+            const bool before = std::exchange(
+                inside, screen_px.contains(transform.toScreen({track.map_m[i].x(), track.map_m[i].y()})));
+            if (!inside) continue;
+            if (!before) found.push_back({id, track.time_s[i], track.time_s[i]});
+            found.back().to_s = track.time_s[i];
+        }
+    }
+    // A single epoch is no stretch.
+    std::erase_if(found, [](const TrackStretch& s) { return s.from_s == s.to_s; });
+    return found;
+}
+
 QString markAt(const MapScene& scene, const MapTransform& transform, QPointF screen_px) {
     if (!scene.survey || !scene.shown.marks) return {};
     constexpr double kReach_px = 8.0;
@@ -278,6 +305,24 @@ QRgb pointColour(GroundPointState state) {
         default:
             return qRgb(213, 94, 0);
     }
+}
+
+std::vector<std::pair<QString, QColor>> pointClasses(const MapScene& scene) {
+    std::vector<std::pair<QString, QColor>> classes;
+    if (!scene.shown.points || !scene.products) return classes;
+    const std::array<std::pair<GroundPointState, const char*>, 3> kinds{
+        {{GroundPointState::Used, QT_TRANSLATE_NOOP("MapScene", "used")},
+         {GroundPointState::Thinned, QT_TRANSLATE_NOOP("MapScene", "thinned, left out")},
+         {GroundPointState::NoRange, QT_TRANSLATE_NOOP("MapScene", "refused")}}};
+    for (const auto& [state, name] : kinds) {
+        const QRgb colour = pointColour(state);
+        const auto& points = scene.products->ground_points;
+        if (std::any_of(points.begin(), points.end(), [&](const GroundPoint& p) {
+                return pointColour(p.state) == colour && p.enu_m.allFinite();
+            }))
+            classes.emplace_back(QCoreApplication::translate("MapScene", name), QColor(colour));
+    }
+    return classes;
 }
 
 void drawPoints(QPainter& painter, const MapScene& scene, const MapTransform& transform) {
@@ -336,11 +381,12 @@ void drawStretches(QPainter& painter, const MapScene& scene, const MapTransform&
             drawPart(painter, track, out.from_s, out.to_s, QPen(kExcludedInk, 2.0, Qt::DotLine, Qt::FlatCap),
                      transform);
         }
-        if (scene.stretch && scene.stretch->run == id) {
+        for (const TrackStretch& selected : scene.stretches) {
+            if (selected.run != id) continue;
             // Opaque: the line is drawn in pieces, which would show where they overlap.
             for (const auto& [colour, width_px] :
                  {std::pair(QColor(Qt::white), 7.0), {accentColour(), 4.5}}) {
-                drawPart(painter, track, scene.stretch->from_s, scene.stretch->to_s,
+                drawPart(painter, track, selected.from_s, selected.to_s,
                          QPen(colour, width_px, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin), transform);
             }
         }
@@ -410,13 +456,48 @@ void drawTerraceEdges(QPainter& painter, const MapScene& scene, const MapTransfo
     }
 }
 
+namespace {
+
+QList<QRectF> markBoxes(const QPainter& painter, const MapScene& scene, const MapTransform& transform) {
+    QList<QRectF> boxes;
+    if (!scene.survey || !scene.shown.marks) return boxes;
+    const QFontMetrics metrics = painter.fontMetrics();
+    for (const PlacedMark& placed : scene.survey->marks) {
+        const QString name = text(placed.mark.name);
+        if (scene.shown.hidden_marks.contains(name)) continue;
+        const QPointF at = transform.toScreen({placed.map_m.x(), placed.map_m.y()});
+        boxes << QRectF(at - QPointF(8, metrics.ascent() + 6),
+                        QSizeF(16 + metrics.horizontalAdvance(name), metrics.height() + 14));
+    }
+    return boxes;
+}
+
+/// The box of a label on a line, as near to the middle of it as one is seen and free.
+std::optional<QRectF> freePlace(const QPolygonF& line, const QRectF& seen, const QList<QRectF>& taken) {
+    const qsizetype middle = line.size() / 2;
+    const qsizetype step = std::max<qsizetype>(1, line.size() / 64);
+    for (qsizetype off = 0; off <= middle; off += step) {
+        for (const qsizetype i : {middle + off, middle - off}) {
+            if (i < 0 || i >= line.size()) continue;
+            const QRectF box(line[i] - QPointF(24, 12), QSizeF(48, 24));
+            const bool free =
+                std::none_of(taken.begin(), taken.end(), [&](const QRectF& o) { return o.intersects(box); });
+            if (free && seen.contains(box)) return box;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
 void drawContours(QPainter& painter, const MapScene& scene, const MapTransform& transform,
                   const QPalette& palette) {
     if (!scene.contours || !scene.shown.contours) return;
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setBrush(Qt::NoBrush);
     const QRectF seen = QRectF(QPointF(0, 0), transform.size_px).adjusted(-8, -8, 8, 8);
-    QList<QRectF> taken;
+    // Marks and their names are drawn over this.
+    QList<QRectF> taken = markBoxes(painter, scene, transform);
     for (const Contour& contour : *scene.contours) {
         QPolygonF line;
         for (const Eigen::Vector2d& v : contour.vertices) {
@@ -430,14 +511,11 @@ void drawContours(QPainter& painter, const MapScene& scene, const MapTransform& 
         if (!contour.is_index || line.size() < 12) continue;
         const QString label =
             QString::number(contour.level, 'f', contour.level == std::round(contour.level) ? 0 : 1);
-        const QPointF at = line[line.size() / 2];
-        const QRectF box(at - QPointF(24, 12), QSizeF(48, 24));
-        const bool free =
-            std::none_of(taken.begin(), taken.end(), [&](const QRectF& o) { return o.intersects(box); });
-        if (!free || !seen.contains(box)) continue;
-        taken << box;
-        drawLabel(painter, at + QPointF(-painter.fontMetrics().horizontalAdvance(label) / 2.0, 4), label,
-                  palette);
+        const auto box = freePlace(line, seen, taken);
+        if (!box) continue;
+        taken << *box;
+        const double half_px = painter.fontMetrics().horizontalAdvance(label) / 2.0;
+        drawLabel(painter, box->center() + QPointF(-half_px, 4), label, palette);
     }
 }
 
@@ -473,6 +551,15 @@ QColor lineColour(BreaklineKind kind) {
     return {};
 }
 
+void drawCross(QPainter& painter, QPointF at) {
+    painter.setRenderHint(QPainter::Antialiasing);
+    for (const auto& [colour, width] : {std::pair{QColor(Qt::white), 4.0}, {accentColour(), 2.0}}) {
+        painter.setPen(QPen(colour, width));
+        for (const QPointF& arm : {QPointF(1, 0), QPointF(-1, 0), QPointF(0, 1), QPointF(0, -1)})
+            painter.drawLine(at + arm * 4.0, at + arm * 18.0);
+    }
+}
+
 void drawEdits(QPainter& painter, const MapScene& scene, const MapTransform& transform,
                const QPalette& palette) {
     painter.setRenderHint(QPainter::Antialiasing);
@@ -484,7 +571,15 @@ void drawEdits(QPainter& painter, const MapScene& scene, const MapTransform& tra
         drawLine(painter, onScreen(vertices_m, transform, ring), lineColour(line.kind),
                  line.kind == BreaklineKind::Soft ? Qt::DashLine : Qt::SolidLine);
     }
-    if (!scene.sketch.vertices_m.isEmpty()) {
+    if (!scene.sketch.vertices_m.isEmpty() && scene.sketch.label.isEmpty() && scene.sketch.closed) {
+        const QPolygonF area = onScreen(scene.sketch.vertices_m, transform, true);
+        QColor fill = accentColour();
+        fill.setAlpha(40);
+        painter.setPen(QPen(accentColour(), 1.5));
+        painter.setBrush(fill);
+        painter.drawPolygon(area);
+        painter.setBrush(Qt::NoBrush);
+    } else if (!scene.sketch.vertices_m.isEmpty()) {
         const QPolygonF line = onScreen(scene.sketch.vertices_m, transform, scene.sketch.closed);
         drawLine(painter, line, accentColour(), Qt::SolidLine);
         painter.setPen(QPen(Qt::white, 1.5));

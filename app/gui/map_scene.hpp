@@ -35,7 +35,7 @@ struct MapScene {
     ViewChoice shown;
     QString highlighted;                                   ///< run or mark that is selected elsewhere
     std::shared_ptr<const std::vector<Contour>> contours;  ///< null: none yet
-    std::optional<TrackStretch> stretch;                   ///< selected
+    std::vector<TrackStretch> stretches;                   ///< selected
     MapSketch sketch;
     std::optional<QPointF> place_m;  ///< that a person asked about
 
@@ -66,6 +66,10 @@ struct TrackHit {
 };
 [[nodiscard]] std::optional<TrackHit> nearestOnTracks(const MapScene& scene, const MapTransform& transform,
                                                       QPointF screen_px, const QString& only_run = {});
+/// Passes of the shown tracks through a rectangle of the screen, each from its first epoch within to its
+/// last.
+[[nodiscard]] std::vector<TrackStretch> stretchesWithin(const MapScene& scene, const MapTransform& transform,
+                                                        const QRectF& screen_px);
 /// The mark whose symbol lies under a point on the screen; empty where there is none.
 [[nodiscard]] QString markAt(const MapScene& scene, const MapTransform& transform, QPointF screen_px);
 /// Times by which errors at marks are drawn longer than they are, a round number.
@@ -73,6 +77,8 @@ struct TrackHit {
 
 /// Of a ground point, by whether it carries the surface, stands back for another, or was refused.
 [[nodiscard]] QRgb pointColour(GroundPointState state);
+/// Kinds of ground points that occur, with their colours; none where points are not shown.
+[[nodiscard]] std::vector<std::pair<QString, QColor>> pointClasses(const MapScene& scene);
 /// Of a drawn line.
 [[nodiscard]] QColor lineColour(BreaklineKind kind);
 inline const QColor kEdgeInk(70, 35, 20);  ///< of terraces
@@ -91,6 +97,8 @@ void drawMarks(QPainter& painter, const MapScene& scene, const MapTransform& tra
 void drawTerraceEdges(QPainter& painter, const MapScene& scene, const MapTransform& transform);
 void drawContours(QPainter& painter, const MapScene& scene, const MapTransform& transform,
                   const QPalette& palette);
+/// Where keys point.
+void drawCross(QPainter& painter, QPointF at);
 /// Drawn lines, the sketch, and the place that was asked about.
 void drawEdits(QPainter& painter, const MapScene& scene, const MapTransform& transform,
                const QPalette& palette);

@@ -19,6 +19,7 @@ namespace {
 // Room for the legend at the right.
 constexpr QMarginsF kFitMargins_px(24.0, 24.0, 128.0, 32.0);
 constexpr double kKeyPan_px = 64.0;
+constexpr double kKeyStep_px = 8.0;
 constexpr double kKeyZoom = 1.25;
 /// Farther than this a press was a drag.
 constexpr double kClick_px = 4.0;
@@ -151,6 +152,8 @@ void MapView::followState() {
 void MapView::setTool(MapTool tool) {
     if (tool == tool_) return;
     tool_ = tool;
+    stretch_from_.reset();
+    area_from_m_.reset();
     drawn_m_.clear();
     scene_.sketch = {};
     update();
@@ -158,8 +161,8 @@ void MapView::setTool(MapTool tool) {
 }
 
 void MapView::followSelection() {
-    scene_.highlighted = selection_.stretch() ? QString() : selection_.item();
-    scene_.stretch = selection_.stretch();
+    scene_.stretches = selection_.stretches();
+    scene_.highlighted = scene_.stretches.empty() ? selection_.item() : QString();
     update();
 }
 
@@ -200,6 +203,7 @@ void MapView::paintEvent(QPaintEvent*) {
     drawMarks(painter, scene_, transform_, palette());
     drawEdits(painter, scene_, transform_, palette());
     drawFurniture(painter, scene_, transform_, palette());
+    if (key_cursor_m_) drawCross(painter, transform_.toScreen(*key_cursor_m_));
 }
 
 bool MapView::linesCurrent() const {
@@ -255,18 +259,19 @@ void MapView::mousePressEvent(QMouseEvent* event) {
     if (event->button() == Qt::RightButton && draws()) return finishLine();
     if (event->button() != Qt::LeftButton && event->button() != Qt::MiddleButton) return;
     pressed_at_ = event->position();
-    if (tool_ == MapTool::SelectStretch && event->button() == Qt::LeftButton) {
-        stretch_from_ = nearestOnTracks(scene_, transform_, event->position());
-        if (stretch_from_ && stretch_from_->distance_px > kReach_px) stretch_from_.reset();
-        if (stretch_from_) return;
+    key_cursor_m_.reset();
+    if (selects() && event->button() == Qt::LeftButton) {
+        kept_ = event->modifiers() & Qt::ShiftModifier ? selection_.stretches() : std::vector<TrackStretch>();
+        startSelection(event->position());
+        if (selecting()) return;
     }
     dragged_from_ = event->position();
 }
 
 void MapView::mouseMoveEvent(QMouseEvent* event) {
     const QPointF at = event->position();
-    if (stretch_from_) {
-        extendStretch(at);
+    if (selecting() && pressed_at_) {
+        extendSelection(at);
     } else if (dragged_from_) {
         if (cursor().shape() != Qt::ClosedHandCursor) setCursor(Qt::ClosedHandCursor);
         moveBy(at - *dragged_from_);
@@ -284,6 +289,9 @@ void MapView::mouseReleaseEvent(QMouseEvent* event) {
     dragged_from_.reset();
     if (clicked && event->button() == Qt::LeftButton) click(event->position());
     stretch_from_.reset();
+    if (area_from_m_) scene_.sketch = {};
+    area_from_m_.reset();
+    update();
 }
 
 void MapView::click(QPointF screen_px) {
@@ -303,6 +311,32 @@ void MapView::click(QPointF screen_px) {
     scene_.place_m = transform_.toMap(screen_px);
     update();
     Q_EMIT placeAsked(*scene_.place_m);
+}
+
+void MapView::startSelection(QPointF screen_px) {
+    if (tool_ == MapTool::SelectArea) {
+        area_from_m_ = transform_.toMap(screen_px);
+        return;
+    }
+    stretch_from_ = nearestOnTracks(scene_, transform_, screen_px);
+    if (stretch_from_ && stretch_from_->distance_px > kReach_px) stretch_from_.reset();
+}
+
+void MapView::extendSelection(QPointF screen_px) {
+    if (stretch_from_) extendStretch(screen_px);
+    if (area_from_m_) extendArea(screen_px);
+}
+
+void MapView::extendArea(QPointF screen_px) {
+    const QPointF a = *area_from_m_, b = transform_.toMap(screen_px);
+    scene_.sketch = {QPolygonF({a, {b.x(), a.y()}, b, {a.x(), b.y()}}), true, {}};
+    std::vector<TrackStretch> all = kept_;
+    for (TrackStretch& found :
+         stretchesWithin(scene_, transform_, QRectF(transform_.toScreen(a), screen_px).normalized())) {
+        if (std::find(all.begin(), all.end(), found) == all.end()) all.push_back(std::move(found));
+    }
+    selection_.select(std::move(all));
+    update();
 }
 
 void MapView::extendStretch(QPointF screen_px) {
@@ -344,16 +378,50 @@ void MapView::mouseDoubleClickEvent(QMouseEvent* event) {
     update();
 }
 
+void MapView::pressKeyCursor() {
+    if (!scene_.survey) return;
+    if (!key_cursor_m_) {
+        key_cursor_m_ = transform_.centre_m;
+    } else if (const QPointF at = transform_.toScreen(*key_cursor_m_); !selects()) {
+        click(at);
+    } else if (selecting()) {
+        extendSelection(at);
+        stretch_from_.reset();
+        area_from_m_.reset();
+        scene_.sketch = {};
+    } else {
+        kept_.clear();
+        startSelection(at);
+    }
+    update();
+}
+
+void MapView::moveKeyCursor(QPointF by_px) {
+    const QPointF at = transform_.toScreen(*key_cursor_m_) + by_px;
+    key_cursor_m_ = transform_.toMap(at);
+    if (!rect().contains(at.toPoint())) moveBy(-by_px);
+    if (selecting()) extendSelection(at);
+    if (draws() && !drawn_m_.isEmpty()) showSketch(at);
+    update();
+    Q_EMIT hovered(readout(scene_, *key_cursor_m_));
+}
+
 void MapView::keyPressEvent(QKeyEvent* event) {
+    const double step_px = event->modifiers() & Qt::ShiftModifier ? 1.0 : kKeyStep_px;
+    const auto arrow = [&](double x, double y) {
+        return key_cursor_m_ ? moveKeyCursor(QPointF(x, y) * step_px) : moveBy(QPointF(-x, -y) * kKeyPan_px);
+    };
     switch (event->key()) {
         case Qt::Key_Left:
-            return moveBy({kKeyPan_px, 0});
+            return arrow(-1, 0);
         case Qt::Key_Right:
-            return moveBy({-kKeyPan_px, 0});
+            return arrow(1, 0);
         case Qt::Key_Up:
-            return moveBy({0, kKeyPan_px});
+            return arrow(0, -1);
         case Qt::Key_Down:
-            return moveBy({0, -kKeyPan_px});
+            return arrow(0, 1);
+        case Qt::Key_Space:
+            return pressKeyCursor();
         case Qt::Key_Plus:
         case Qt::Key_Equal:
             return zoomBy(kKeyZoom);
@@ -372,10 +440,14 @@ void MapView::keyPressEvent(QKeyEvent* event) {
             }
             break;
         case Qt::Key_Escape:
-            if (drawn_m_.isEmpty()) {
+            if (key_cursor_m_) {
+                key_cursor_m_.reset();
+            } else if (drawn_m_.isEmpty()) {
                 setTool(MapTool::Pan);
                 selection_.clear();
             }
+            stretch_from_.reset();
+            area_from_m_.reset();
             drawn_m_.clear();
             scene_.sketch = {};
             return update();

@@ -17,6 +17,7 @@ namespace terrawalk::gui {
 enum class MapTool {
     Pan,            ///< drag moves the map, a click asks what is there
     SelectStretch,  ///< drag along a track
+    SelectArea,     ///< drag a rectangle: all passes through it, beside the earlier ones with Shift
     Measure,        ///< clicks; lengths and area
     Profile,        ///< clicks; a double click or Enter ends the line
     HardLine,       ///< the same for what is drawn
@@ -26,7 +27,9 @@ enum class MapTool {
 };
 
 /// The map: wheel zooms about the cursor, drag or arrow keys pan, Home shows all. A tool that draws takes
-/// clicks: Enter or a double click ends it, Backspace takes the last vertex back, Escape all of them.
+/// clicks: Enter or a double click ends it, Backspace takes the last vertex back, Escape all of them. Without
+/// a mouse: Space shows a cross, arrow keys move it (with Shift by a pixel), and Space clicks there; tools
+/// that select by a drag take one click for each of its ends.
 class MapView : public QWidget {
     Q_OBJECT
   public:
@@ -77,10 +80,19 @@ class MapView : public QWidget {
     void followSelection();
     void moveBy(QPointF by_px);
     void click(QPointF screen_px);
+    void startSelection(QPointF screen_px);
+    void extendSelection(QPointF screen_px);
     void extendStretch(QPointF screen_px);
+    void extendArea(QPointF screen_px);
+    void pressKeyCursor();
+    void moveKeyCursor(QPointF by_px);
     void showSketch(std::optional<QPointF> cursor_px);
     void finishLine();
-    [[nodiscard]] bool draws() const { return tool_ != MapTool::Pan && tool_ != MapTool::SelectStretch; }
+    [[nodiscard]] bool selects() const {
+        return tool_ == MapTool::SelectStretch || tool_ == MapTool::SelectArea;
+    }
+    [[nodiscard]] bool selecting() const { return stretch_from_ || area_from_m_; }
+    [[nodiscard]] bool draws() const { return tool_ != MapTool::Pan && !selects(); }
 
     ViewState& state_;
     Selection& selection_;
@@ -102,6 +114,9 @@ class MapView : public QWidget {
     std::optional<QPointF> pressed_at_;
     std::optional<QPointF> dragged_from_;
     std::optional<TrackHit> stretch_from_;
+    std::optional<QPointF> area_from_m_;
+    std::vector<TrackStretch> kept_;  ///< selected before this area
+    std::optional<QPointF> key_cursor_m_;
     QPolygonF drawn_m_;
     bool fitted_ = false;  ///< until a person moves the map, it keeps showing all
 };

@@ -27,6 +27,8 @@ namespace terrawalk::gui {
 namespace {
 
 constexpr double kWheelZoom = 1.25;
+/// A click this near to a dot means it.
+constexpr double kNameReach_px = 10.0;
 constexpr double kYMargin = 0.06;
 constexpr double kDragSlack_px = 4.0;
 constexpr double kDot_px = 3.5, kMarkDot_px = 6.0;
@@ -104,7 +106,8 @@ struct PlotCanvas::Parts {
     struct Panel {
         QCPAxisRect* rect = nullptr;
         std::vector<Shown> shown;
-        QCPItemRect* shade = nullptr;
+        std::vector<QCPItemRect*> shades;
+        QCPGraph* chosen = nullptr;  ///< rings about dots
         QCPItemStraightLine* cursor = nullptr;
         QCPLegend* legend = nullptr;
         QString label;  ///< of y
@@ -128,7 +131,10 @@ struct PlotCanvas::Parts {
     void refill(std::size_t index);
     void scaleY(std::size_t index);
     void refillDots(std::size_t index);
+    [[nodiscard]] QCPItemRect* newShade(QCPAxisRect& rect) const;
     void placeShade();
+    [[nodiscard]] QString nameAt(const QPointF& px) const;
+    void moveStretch(double from_by, double to_by);
     void showCursor(const QPointF* px);
     [[nodiscard]] Range wholeX() const;
     [[nodiscard]] std::size_t columns() const;
@@ -145,7 +151,8 @@ struct PlotCanvas::Parts {
     Plot plot;
     std::vector<Panel> panels;
     double from = 0.0, to = 1.0;
-    std::optional<std::pair<double, double>> stretch;
+    std::vector<std::pair<double, double>> stretches;
+    QString named;
     std::optional<QPointF> pressed;
     QPointF last;
     Qt::MouseButton button = Qt::NoButton;
@@ -189,8 +196,15 @@ void PlotCanvas::show(Plot plot) {
     }
 }
 
-void PlotCanvas::setStretch(std::optional<std::pair<double, double>> stretch_s) {
-    parts_->stretch = stretch_s;
+void PlotCanvas::setStretches(std::vector<std::pair<double, double>> stretches_s) {
+    parts_->stretches = std::move(stretches_s);
+    parts_->placeShade();
+    parts_->view->replot(QCustomPlot::rpQueuedReplot);
+}
+
+void PlotCanvas::setNamed(const QString& name) {
+    if (parts_->named == name) return;
+    parts_->named = name;
     parts_->placeShade();
     parts_->view->replot(QCustomPlot::rpQueuedReplot);
 }
@@ -473,18 +487,10 @@ void PlotCanvas::Parts::addPanel(std::size_t index, QCPMarginGroup& margins) {
         // Edges of bands have no name.
         if (!plottable->name().isEmpty()) plottable->addToLegend(panel.legend);
     }
-    panel.shade = new QCPItemRect(view);
-    panel.shade->setClipAxisRect(panel.rect);
-    for (QCPItemPosition* corner : {panel.shade->topLeft, panel.shade->bottomRight}) {
-        corner->setTypeX(QCPItemPosition::ptPlotCoords);
-        corner->setTypeY(QCPItemPosition::ptAxisRectRatio);
-        corner->setAxes(x, y);
-        corner->setAxisRect(panel.rect);
-    }
-    QColor shade = accentColour();
-    shade.setAlpha(60);
-    panel.shade->setBrush(shade);
-    panel.shade->setPen(Qt::NoPen);
+    panel.chosen = view->addGraph(x, y);
+    panel.chosen->setLineStyle(QCPGraph::lsNone);
+    panel.chosen->setScatterStyle(
+        QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(accentColour(), 2.0), Qt::NoBrush, 14.0));
     panel.cursor = new QCPItemStraightLine(view);
     panel.cursor->setClipAxisRect(panel.rect);
     panel.cursor->setPen(QPen(quietColour(), 1.0, Qt::DotLine));
@@ -623,13 +629,79 @@ void PlotCanvas::Parts::refillDots(std::size_t index) {
     }
 }
 
-void PlotCanvas::Parts::placeShade() {
-    for (Panel& panel : panels) {
-        panel.shade->setVisible(stretch && plot.over_time);
-        if (!stretch) continue;
-        panel.shade->topLeft->setCoords(stretch->first, 0.0);
-        panel.shade->bottomRight->setCoords(stretch->second, 1.0);
+QCPItemRect* PlotCanvas::Parts::newShade(QCPAxisRect& rect) const {
+    auto* shade = new QCPItemRect(view);
+    shade->setClipAxisRect(&rect);
+    for (QCPItemPosition* corner : {shade->topLeft, shade->bottomRight}) {
+        corner->setTypeX(QCPItemPosition::ptPlotCoords);
+        corner->setTypeY(QCPItemPosition::ptAxisRectRatio);
+        corner->setAxes(rect.axis(QCPAxis::atBottom), rect.axis(QCPAxis::atLeft));
+        corner->setAxisRect(&rect);
     }
+    QColor colour = accentColour();
+    colour.setAlpha(60);
+    shade->setBrush(colour);
+    shade->setPen(Qt::NoPen);
+    return shade;
+}
+
+void PlotCanvas::Parts::placeShade() {
+    auto parts = plot.over_time ? stretches : std::vector<std::pair<double, double>>();
+    if (const auto category = plot.categories.indexOf(named); plot.of_marks && category >= 0) {
+        const auto at = static_cast<double>(category);
+        parts.emplace_back(at - 0.5, at + 0.5);
+    }
+    for (Panel& panel : panels) {
+        while (panel.shades.size() < parts.size()) panel.shades.push_back(newShade(*panel.rect));
+        for (std::size_t i = 0; i < panel.shades.size(); ++i) {
+            panel.shades[i]->setVisible(i < parts.size());
+            if (i >= parts.size()) continue;
+            panel.shades[i]->topLeft->setCoords(parts[i].first, 0.0);
+            panel.shades[i]->bottomRight->setCoords(parts[i].second, 1.0);
+        }
+        QVector<double> x, y;
+        for (const Shown& shown : panel.shown) {
+            for (qsizetype i = 0; i < shown.series->names.size(); ++i) {
+                if (named.isEmpty() || shown.series->names[i] != named) continue;
+                x << shown.series->x[static_cast<std::size_t>(i)];
+                y << shown.series->y[static_cast<std::size_t>(i)];
+            }
+        }
+        panel.chosen->setData(x, y);
+    }
+}
+
+/// Of the dot under the cursor, or of the category.
+QString PlotCanvas::Parts::nameAt(const QPointF& px) const {
+    const int index = panelAt(px);
+    if (index < 0) return {};
+    const Panel& panel = panels[static_cast<std::size_t>(index)];
+    const QCPAxis *x = panel.rect->axis(QCPAxis::atBottom), *y = panel.rect->axis(QCPAxis::atLeft);
+    QString nearest;
+    double least_px = kNameReach_px;
+    for (const Shown& shown : panel.shown) {
+        for (qsizetype i = 0; i < shown.series->names.size(); ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            const double off_px = std::hypot(x->coordToPixel(shown.series->x[at]) - px.x(),
+                                             y->coordToPixel(shown.series->y[at]) - px.y());
+            if (off_px >= least_px) continue;
+            least_px = off_px;
+            nearest = shown.series->names[i];
+        }
+    }
+    if (!nearest.isEmpty() || !plot.of_marks) return nearest;
+    return plot.categories.value(static_cast<qsizetype>(std::lround(x->pixelToCoord(px.x()))));
+}
+
+/// With the keys: a stretch in the middle of the view where there is none.
+void PlotCanvas::Parts::moveStretch(double from_by, double to_by) {
+    if (!plot.over_time || panels.empty()) return;
+    const Range whole = wholeX();
+    const double middle = (from + to) / 2.0;
+    auto [a, b] = stretches.empty() ? std::pair{middle, middle} : stretches.back();
+    a = std::clamp(a + from_by, whole.low, whole.high);
+    b = std::clamp(b + to_by, whole.low, whole.high);
+    if (a < b) Q_EMIT canvas->stretchDragged(a, b);
 }
 
 int PlotCanvas::Parts::panelAt(const QPointF& px) const {
@@ -676,20 +748,23 @@ void PlotCanvas::Parts::move(const QMouseEvent& event) {
         return setX(from + by, to + by);
     }
     const double a = x->pixelToCoord(pressed->x()), b = x->pixelToCoord(at.x());
-    stretch = std::pair{std::min(a, b), std::max(a, b)};
+    stretches = {{std::min(a, b), std::max(a, b)}};
     placeShade();
     showCursor(&at);
 }
 
 void PlotCanvas::Parts::release(const QMouseEvent&) {
-    const bool selected = dragging && button == Qt::LeftButton && plot.over_time && stretch;
+    const bool selected = dragging && button == Qt::LeftButton && plot.over_time && !stretches.empty();
+    const auto clicked = button == Qt::LeftButton && !dragging ? std::exchange(pressed, {}) : std::nullopt;
     pressed.reset();
     dragging = false;
+    if (const QString name = clicked ? nameAt(*clicked) : QString(); !name.isEmpty())
+        Q_EMIT canvas->nameClicked(name);
     if (!selected) return;
     // No farther than the log goes.
     const Range whole = wholeX();
-    const double a = std::clamp(stretch->first, whole.low, whole.high);
-    const double b = std::clamp(stretch->second, whole.low, whole.high);
+    const double a = std::clamp(stretches.front().first, whole.low, whole.high);
+    const double b = std::clamp(stretches.front().second, whole.low, whole.high);
     if (a < b) Q_EMIT canvas->stretchDragged(a, b);
 }
 
@@ -734,6 +809,13 @@ bool PlotCanvas::eventFilter(QObject* watched, QEvent* event) {
 void PlotCanvas::keyPressEvent(QKeyEvent* event) {
     const auto [from, to] = visibleX();
     const double middle = (from + to) / 2.0, step = (to - from) / 8.0;
+    const bool left = event->key() == Qt::Key_Left;
+    if ((left || event->key() == Qt::Key_Right) &&
+        event->modifiers() & (Qt::ShiftModifier | Qt::ControlModifier)) {
+        const double by = (left ? -1.0 : 1.0) * (to - from) / 100.0;
+        const bool end = event->modifiers() & Qt::ShiftModifier;
+        return parts_->moveStretch(end ? 0.0 : by, end ? by : 0.0);
+    }
     switch (event->key()) {
         case Qt::Key_Left:
             return parts_->setX(from - step, to - step);

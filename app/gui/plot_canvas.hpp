@@ -5,13 +5,15 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "app/gui/plot_data.hpp"
 
 namespace terrawalk::gui {
 
 /// Draws one plot. Over time a left drag selects a stretch; the wheel zooms about the cursor, a right drag
-/// moves, a double click shows all again; arrow keys, plus, minus and Home do the same.
+/// moves, a double click shows all again; arrow keys, plus, minus and Home do the same. Shift with left and
+/// right moves the end of the stretch, Ctrl with them its start.
 class PlotCanvas : public QWidget {
     Q_OBJECT
   public:
@@ -20,8 +22,10 @@ class PlotCanvas : public QWidget {
 
     void show(Plot plot);
     using QWidget::show;
-    /// Shades a part of the time axis.
-    void setStretch(std::optional<std::pair<double, double>> stretch_s);
+    /// Shades parts of the time axis.
+    void setStretches(std::vector<std::pair<double, double>> stretches_s);
+    /// Marks what is named, a category or dots.
+    void setNamed(const QString& name);
     void themeChanged();
     /// Shows all of x again.
     void resetZoom();
@@ -39,6 +43,8 @@ class PlotCanvas : public QWidget {
 
   Q_SIGNALS:
     void stretchDragged(double from_s, double to_s);
+    /// A click on a dot that has a name, or on the column of a category.
+    void nameClicked(const QString& name);
     /// Under the cursor; empty where there is nothing.
     void readout(const QString& text);
 

@@ -401,6 +401,7 @@ Plot groundPlot(std::size_t run, const Products& products) {
 /// Errors over their predicted sigma, axis by axis, mark by mark.
 Plot normalisedErrors(const SurveyReport& report) {
     Plot plot;
+    plot.of_marks = true;
     plot.x_label = QCoreApplication::translate("PlotData", "Mark");
     std::vector<QString> marks;
     const auto place = [&](const std::string& mark) {
@@ -443,6 +444,7 @@ Plot normalisedErrors(const SurveyReport& report) {
                 if (!std::isfinite(ratio)) continue;
                 series.x.push_back(place(r.mark));
                 series.y.push_back(ratio);
+                series.names << text(r.mark);
                 if (r.used_by_estimator) continue;
                 ++n;
                 within += std::abs(ratio) <= kBand95 ? 1U : 0U;
@@ -474,21 +476,34 @@ Plot normalisedErrors(const SurveyReport& report) {
     return plot;
 }
 
-/// Height errors of the surface at marks that it had no part in, in order of size; else those of the tracks.
-std::vector<double> heightErrors(const SurveyReport& report, QString& of_what) {
+/// Errors in order of size, and the marks where they are.
+struct HeightErrors {
+    QString of_what;
+    std::vector<double> m;
+    QStringList marks;
+};
+
+/// Of the surface at marks that it had no part in; else those of the tracks.
+HeightErrors heightErrors(const SurveyReport& report) {
     for (const Stage stage : {Stage::Surface, Stage::Fused}) {
-        std::vector<double> errors;
+        std::vector<std::pair<double, std::string>> errors;
         for (const Residual& r : report.residuals) {
             const auto wanted = stage == Stage::Surface ? Quantity::SurfaceHeight : Quantity::ArrayPosition;
             if (r.stage != stage || r.quantity != wanted || r.used_by_estimator) continue;
-            if (std::isfinite(r.difference_enu_m.z())) errors.push_back(r.difference_enu_m.z());
+            if (std::isfinite(r.difference_enu_m.z())) errors.emplace_back(r.difference_enu_m.z(), r.mark);
         }
         if (errors.size() < 3) continue;
         std::sort(errors.begin(), errors.end());
-        of_what = stage == Stage::Surface
-                      ? QCoreApplication::translate("PlotData", "Height error of the surface")
-                      : QCoreApplication::translate("PlotData", "Height error of the tracks");
-        return errors;
+        HeightErrors found{stage == Stage::Surface
+                               ? QCoreApplication::translate("PlotData", "Height error of the surface")
+                               : QCoreApplication::translate("PlotData", "Height error of the tracks"),
+                           {},
+                           {}};
+        for (const auto& [error_m, mark] : errors) {
+            found.m.push_back(error_m);
+            found.marks << text(mark);
+        }
+        return found;
     }
     return {};
 }
@@ -516,8 +531,7 @@ Plot fewErrors() {
 }
 
 Plot errorHistogram(const SurveyReport& report) {
-    QString what;
-    const std::vector<double> errors = heightErrors(report, what);
+    const auto [what, errors, marks] = heightErrors(report);
     if (errors.empty()) return fewErrors();
     const auto n = static_cast<double>(errors.size());
     const Moments m = momentsOf(errors);
@@ -572,8 +586,7 @@ double normalQuantile(double p) {
 }
 
 Plot quantiles(const SurveyReport& report) {
-    QString what;
-    const std::vector<double> errors = heightErrors(report, what);
+    const auto [what, errors, marks] = heightErrors(report);
     if (errors.empty()) return fewErrors();
     PlotSeries dots{
         QCoreApplication::translate("PlotData", "Marks"), SeriesStyle::Dots, SeriesInk::First, {}, {}, {}};
@@ -581,6 +594,7 @@ Plot quantiles(const SurveyReport& report) {
         dots.x.push_back(normalQuantile((static_cast<double>(i) + 0.5) / static_cast<double>(errors.size())));
         dots.y.push_back(errors[i]);
     }
+    dots.names = marks;
     // Robust, so that blunders stand off from the line and do not pull it: median and NMAD.
     const double middle = medianOf(errors);
     std::vector<double> off;
@@ -594,6 +608,7 @@ Plot quantiles(const SurveyReport& report) {
                     {middle - end * nmad, middle + end * nmad},
                     {}};
     Plot plot;
+    plot.of_marks = true;
     plot.x_label = QCoreApplication::translate("PlotData", "Quantile of the normal distribution (σ)");
     plot.panels.push_back({what, "m", 2, {std::move(dots), std::move(line)}, false});
     plot.note = QCoreApplication::translate(

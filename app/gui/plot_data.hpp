@@ -56,6 +56,7 @@ struct PlotSeries {
     std::vector<double> x, y;
     std::vector<double> half_band;  ///< empty, or half the width of a band about each y
     bool sets_scale = true;         ///< whether y makes room for it
+    QStringList names;              ///< of dots: one for each, e.g. a mark; or none
 };
 
 /// One pair of axes. Panels of a plot stand one below the other over the same x.
@@ -75,6 +76,7 @@ struct Plot {
     bool over_time = false;  ///< x is the time of a run's log [s]
     double bar_width = 1.0;
     QStringList categories;  ///< names of x = 0, 1, 2 ..., where x is no number
+    bool of_marks = false;   ///< dots and categories are named after marks
     std::vector<PlotPanel> panels;
     QString note;    ///< figures that belong to it
     QString reason;  ///< where there are no panels: why, and what to do

@@ -81,8 +81,9 @@ PlotsView::PlotsView(Selection& selection, QWidget* parent) : QWidget(parent), s
     exclude_ = new QPushButton(tr("Exclude this stretch"));
     exclude_->setObjectName("excludeStretch");
     connect(exclude_, &QPushButton::clicked, this, [this] {
-        if (selection_.stretch())
-            Q_EMIT excludeAsked(*selection_.stretch(), sensors_->currentData().toString());
+        if (ofMarks()) return Q_EMIT excludeMarkAsked(selection_.item());
+        const auto shown = shownStretches();
+        if (!shown.empty()) Q_EMIT excludeAsked(shown, sensors_->currentData().toString());
     });
     open_ = new QPushButton(tr("Open a tuning or an experiment…"));
     open_->setObjectName("openSearches");
@@ -93,6 +94,7 @@ PlotsView::PlotsView(Selection& selection, QWidget* parent) : QWidget(parent), s
     connect(canvas_, &PlotCanvas::stretchDragged, this, [this](double from_s, double to_s) {
         selection_.select({run(), from_s, to_s});
     });
+    connect(canvas_, &PlotCanvas::nameClicked, &selection_, &Selection::selectItem);
     readout_ = new QLabel;
     readout_->setObjectName("plotReadout");
     readout_->setAccessibleName(tr("Values under the cursor"));
@@ -217,25 +219,55 @@ void PlotsView::renew() {
     note_->setText(plot.note);
     note_->setVisible(!plot.note.isEmpty());
     const bool of_run = plotsOneRun(kind_) && survey_;
-    for (QWidget* widget :
-         {static_cast<QWidget*>(runs_), static_cast<QWidget*>(sensors_), static_cast<QWidget*>(exclude_)}) {
+    for (QWidget* widget : {static_cast<QWidget*>(runs_), static_cast<QWidget*>(sensors_)}) {
         widget->setVisible(of_run);
     }
+    exclude_->setVisible(of_run || plot.of_marks);
+    exclude_->setText(plot.of_marks ? tr("Leave this mark out") : tr("Exclude this stretch"));
     open_->setVisible(plotsSearches(kind_) && survey_);
     readout_->setText({});
     canvas_->show(std::move(plot));
     shadeSelection();
 }
 
+bool PlotsView::ofMarks() const {
+    return canvas_->plot().of_marks;
+}
+
+bool PlotsView::markSelected() const {
+    if (!survey_ || !selection_.stretches().empty()) return false;
+    return std::any_of(survey_->marks.begin(), survey_->marks.end(), [&](const ControlMark& mark) {
+        return QString::fromStdString(mark.name) == selection_.item();
+    });
+}
+
+std::vector<TrackStretch> PlotsView::shownStretches() const {
+    std::vector<TrackStretch> shown;
+    if (!plotsOneRun(kind_)) return shown;
+    std::copy_if(selection_.stretches().begin(), selection_.stretches().end(), std::back_inserter(shown),
+                 [this](const TrackStretch& stretch) { return stretch.run == run(); });
+    return shown;
+}
+
 void PlotsView::shadeSelection() {
-    const auto& stretch = selection_.stretch();
-    const bool shown = stretch && stretch->run == run();
-    canvas_->setStretch(shown ? std::optional(std::pair{stretch->from_s, stretch->to_s}) : std::nullopt);
-    exclude_->setEnabled(shown);
-    exclude_->setToolTip(shown ? tr("Leaves these readings of %1, %2 s to %3 s, out of the next run")
-                                     .arg(stretch->run, QString::number(stretch->from_s, 'f', 1),
-                                          QString::number(stretch->to_s, 'f', 1))
-                               : tr("Drag along the time axis to select a stretch first"));
+    const auto shown = shownStretches();
+    std::vector<std::pair<double, double>> times_s;
+    for (const TrackStretch& stretch : shown) times_s.emplace_back(stretch.from_s, stretch.to_s);
+    canvas_->setStretches(std::move(times_s));
+    canvas_->setNamed(selection_.item());
+    if (ofMarks()) {
+        const bool known = markSelected();
+        exclude_->setEnabled(known);
+        exclude_->setToolTip(known ? tr("Leaves %1 out of the next run").arg(selection_.item())
+                                   : tr("Click a mark first"));
+        return;
+    }
+    exclude_->setEnabled(!shown.empty());
+    exclude_->setToolTip(shown.empty()
+                             ? tr("Drag along the time axis to select a stretch first")
+                             : tr("Leaves these readings of %1, %2 s to %3 s, out of the next run")
+                                   .arg(shown.front().run, QString::number(shown.front().from_s, 'f', 1),
+                                        QString::number(shown.back().to_s, 'f', 1)));
 }
 
 void PlotsView::themeChanged() {

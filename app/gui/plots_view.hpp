@@ -41,7 +41,8 @@ class PlotsView : public QWidget {
 
   Q_SIGNALS:
     /// @param sensor  as EditedSensor is named: "all", "gnss" and so on
-    void excludeAsked(const terrawalk::gui::TrackStretch& stretch, const QString& sensor);
+    void excludeAsked(const std::vector<terrawalk::gui::TrackStretch>& stretches, const QString& sensor);
+    void excludeMarkAsked(const QString& mark);
     /// Of other files shall be shown.
     void searchesAsked();
 
@@ -49,6 +50,9 @@ class PlotsView : public QWidget {
     void fillList();
     void renew();
     void shadeSelection();
+    [[nodiscard]] bool ofMarks() const;
+    [[nodiscard]] bool markSelected() const;
+    [[nodiscard]] std::vector<TrackStretch> shownStretches() const;
     [[nodiscard]] std::size_t runNumber() const;
 
     Selection& selection_;

@@ -2,7 +2,8 @@
 
 #include <QObject>
 #include <QString>
-#include <optional>
+#include <utility>
+#include <vector>
 
 namespace terrawalk::gui {
 
@@ -19,22 +20,31 @@ class Selection : public QObject {
     Q_OBJECT
   public:
     using QObject::QObject;
-    [[nodiscard]] const std::optional<TrackStretch>& stretch() const { return stretch_; }
+    /// As they were chosen: one, or those that lie in an area.
+    [[nodiscard]] const std::vector<TrackStretch>& stretches() const { return stretches_; }
+    [[nodiscard]] bool empty() const { return item_.isEmpty() && stretches_.empty(); }
     /// A run or a mark by its name; empty for none.
     [[nodiscard]] const QString& item() const { return item_; }
 
-    /// Selects the run as well. Ends may come in any order.
-    void select(TrackStretch stretch) {
-        if (stretch.to_s < stretch.from_s) std::swap(stretch.from_s, stretch.to_s);
-        if (stretch_ == stretch) return;
-        item_ = stretch.run;
-        stretch_ = std::move(stretch);
+    /// Selects the run as well, where all are of one. Ends may come in any order.
+    void select(std::vector<TrackStretch> stretches) {
+        if (stretches.empty()) return clear();
+        for (TrackStretch& stretch : stretches) {
+            if (stretch.to_s < stretch.from_s) std::swap(stretch.from_s, stretch.to_s);
+        }
+        if (stretches_ == stretches) return;
+        item_ = stretches.front().run;
+        for (const TrackStretch& stretch : stretches) {
+            if (stretch.run != item_) item_.clear();
+        }
+        stretches_ = std::move(stretches);
         Q_EMIT changed();
     }
+    void select(TrackStretch stretch) { select(std::vector{std::move(stretch)}); }
     void selectItem(const QString& name) {
-        if (item_ == name && !stretch_) return;
+        if (item_ == name && stretches_.empty()) return;
         item_ = name;
-        stretch_.reset();
+        stretches_.clear();
         Q_EMIT changed();
     }
     void clear() { selectItem({}); }
@@ -43,7 +53,7 @@ class Selection : public QObject {
     void changed();
 
   private:
-    std::optional<TrackStretch> stretch_;
+    std::vector<TrackStretch> stretches_;
     QString item_;
 };
 

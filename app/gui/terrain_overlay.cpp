@@ -70,13 +70,14 @@ void addTracks(const TerrainScene& scene, const MapScene& map, std::vector<Scene
                 scene, track, out.from_s, out.to_s, [](std::size_t) { return kExcludedInk.rgb(); }, left_out,
                 lines);
         }
-        if (map.stretch && map.stretch->run == id) {
+        for (const TrackStretch& selected : map.stretches) {
+            if (selected.run != id) continue;
             const QRgb bright = selectedColour().rgb();
             style.width_px = 5.0F;
             style.edge = qRgba(30, 30, 30, 255);
             layTrack(
-                scene, track, map.stretch->from_s, map.stretch->to_s, [&](std::size_t) { return bright; },
-                style, lines);
+                scene, track, selected.from_s, selected.to_s, [&](std::size_t) { return bright; }, style,
+                lines);
         }
     }
 }

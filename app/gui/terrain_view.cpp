@@ -109,7 +109,7 @@ TerrainView::TerrainView(ViewState& state, Selection& selection, TerrainRenderer
     });
     connect(&selection_, &Selection::changed, this, [this] {
         map_.highlighted = selection_.item();
-        map_.stretch = selection_.stretch();
+        map_.stretches = selection_.stretches();
         renewOverlay();
     });
     connect(&state_, &ViewState::changed, this, &TerrainView::followState);

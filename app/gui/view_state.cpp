@@ -98,7 +98,8 @@ QList<std::pair<TrackColouring, QString>> colouringNames() {
             {TrackColouring::Speed, words(QT_TRANSLATE_NOOP("ViewState", "Tracks by speed"))},
             {TrackColouring::Height, words(QT_TRANSLATE_NOOP("ViewState", "Tracks by height"))},
             {TrackColouring::SigmaPlan, words(QT_TRANSLATE_NOOP("ViewState", "Tracks by plan σ"))},
-            {TrackColouring::SigmaHeight, words(QT_TRANSLATE_NOOP("ViewState", "Tracks by height σ"))}};
+            {TrackColouring::SigmaHeight, words(QT_TRANSLATE_NOOP("ViewState", "Tracks by height σ"))},
+            {TrackColouring::Residual, words(QT_TRANSLATE_NOOP("ViewState", "Tracks by residual"))}};
 }
 
 }  // namespace terrawalk::gui

@@ -14,7 +14,7 @@ namespace terrawalk::gui {
 
 /// What the ground is coloured by.
 enum class RasterLayer { None, Height, Uncertainty, Density, Source, Change };
-enum class TrackColouring { Run, Fix, Speed, Height, SigmaPlan, SigmaHeight };
+enum class TrackColouring { Run, Fix, Speed, Height, SigmaPlan, SigmaHeight, Residual };
 
 /// What is shown of a survey and how, alike on the map and in three dimensions. A value.
 struct ViewChoice {

@@ -25,7 +25,7 @@ Result<std::vector<PlacedMark>> placedMarks(const Survey& survey, const MapProje
 Result<SurveyMap> mapWithMarks(const Survey& survey, const MapProjection& projection) {
     auto marks = placedMarks(survey, projection);
     if (!marks) return tl::unexpected(marks.error());
-    return SurveyMap{projection.name(), {}, std::move(*marks), {}};
+    return SurveyMap{projection.name(), projection.heightReference(), {}, std::move(*marks), {}};
 }
 
 Result<MapProjection> projectionOf(const Survey& survey) {
@@ -71,6 +71,24 @@ Result<std::vector<Eigen::Vector3d>> groundPointsOnMap(const std::vector<GroundP
     return all;
 }
 
+/// @param time_s  of the epochs, in order
+std::vector<double> residualsAlong(const std::vector<double>& time_s,
+                                   const std::vector<SensorInnovations>& sensors) {
+    std::vector<double> worst(time_s.size(), kMissing);
+    bool some = false;
+    for (const SensorInnovations& sensor : sensors) {
+        for (const Innovation& reading : sensor.readings) {
+            const auto after = std::upper_bound(time_s.begin(), time_s.end(), reading.time_s);
+            if (after == time_s.begin()) continue;
+            double& epoch = worst[static_cast<std::size_t>(after - time_s.begin()) - 1];
+            const auto size = static_cast<double>(std::abs(reading.over_sigma));
+            if (!(epoch >= size)) epoch = size;
+            some = true;
+        }
+    }
+    return some ? worst : std::vector<double>();
+}
+
 int fixOf(const ArrayLog& log, std::size_t epoch) {
     const double code = log.value(Channel::Fix, epoch);
     return present(code) ? static_cast<int>(code) : -1;
@@ -102,7 +120,7 @@ Result<SurveyMap> loggedMap(const Survey& survey, const std::stop_token& stop) {
         auto places = projection->toMap(enu_m);
         if (!places) return tl::unexpected(places.error());
         map->tracks.push_back(
-            {run.id, run.kind, std::move(*places), std::move(time_s), std::move(fix), {}, {}, {}});
+            {run.id, run.kind, std::move(*places), std::move(time_s), std::move(fix), {}, {}, {}, {}});
     }
     return map;
 }
@@ -114,7 +132,7 @@ Result<SurveyMap> fusedMap(const Survey& survey, const Products& products, const
     if (!map) return map;
     for (std::size_t i = 0; i < products.trajectories.size(); ++i) {
         if (stop.stop_requested()) return cancelled();
-        MapTrack track{products.trajectories[i].run_id, survey.runs[i].kind, {}, {}, {}, {}, {}, {}};
+        MapTrack track{products.trajectories[i].run_id, survey.runs[i].kind, {}, {}, {}, {}, {}, {}, {}};
         std::vector<Eigen::Vector3d> enu_m;
         for (const TrajectoryEpoch& epoch : products.trajectories[i].epochs) {
             enu_m.push_back(epoch.position_enu_m);
@@ -123,6 +141,9 @@ Result<SurveyMap> fusedMap(const Survey& survey, const Products& products, const
             track.speed_mps.push_back(epoch.velocity_enu_mps.head<2>().norm());
             track.sigma_plan_m.push_back(std::sqrt(std::max(epoch.covariance(0, 0), epoch.covariance(1, 1))));
             track.sigma_height_m.push_back(std::sqrt(epoch.covariance(2, 2)));
+        }
+        if (i < products.innovations.size()) {
+            track.residual_over_sigma = residualsAlong(track.time_s, products.innovations[i]);
         }
         auto places = projection->toMap(enu_m);
         if (!places) return tl::unexpected(places.error());

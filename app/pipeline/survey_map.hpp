@@ -24,6 +24,9 @@ struct MapTrack {
     std::vector<double> speed_mps;     ///< over ground; empty where nobody tells
     std::vector<double> sigma_plan_m;  ///< larger of the two axes, 1 sigma; empty where nobody tells
     std::vector<double> sigma_height_m;
+    /// Size of the worst innovation of any sensor that came between this epoch and the next, over its sigma;
+    /// kMissing where none came; empty from methods that do not filter.
+    std::vector<double> residual_over_sigma;
 };
 
 /// A mark on the map, with what is known of the errors there.
@@ -37,7 +40,8 @@ struct PlacedMark {
 
 /// A survey in the map frame, for drawing.
 struct SurveyMap {
-    std::string crs;  ///< human-readable name of the map frame
+    std::string crs;               ///< human-readable name of the map frame
+    std::string height_reference;  ///< what heights count from, one sentence
     std::vector<MapTrack> tracks;
     std::vector<PlacedMark> marks;                 ///< the zero point first
     std::vector<Eigen::Vector3d> ground_points_m;  ///< one for each ground point of the products; not finite

@@ -19,6 +19,16 @@
         </message>
     </context>
     <context>
+        <name>terrawalk::gui::MainWindow</name>
+        <message numerus="yes">
+            <source>exclude %n stretches</source>
+            <translation>
+                <numerusform>exclude a stretch</numerusform>
+                <numerusform>exclude %n stretches</numerusform>
+            </translation>
+        </message>
+    </context>
+    <context>
         <name>terrawalk::gui::StepCard</name>
         <message numerus="yes">
             <source>%n more setting(s)</source>

@@ -54,6 +54,14 @@
             <source>Change of height</source>
             <translation>高程变化</translation>
         </message>
+        <message>
+            <source>Track, residual</source>
+            <translation>轨迹，残差</translation>
+        </message>
+        <message>
+            <source>Ground points</source>
+            <translation>地面点</translation>
+        </message>
     </context>
     <context>
         <name>MapScene</name>
@@ -80,6 +88,18 @@
         <message>
             <source>not told</source>
             <translation>未知</translation>
+        </message>
+        <message>
+            <source>used</source>
+            <translation>采用</translation>
+        </message>
+        <message>
+            <source>thinned, left out</source>
+            <translation>抽稀、排除</translation>
+        </message>
+        <message>
+            <source>refused</source>
+            <translation>剔除</translation>
         </message>
     </context>
     <context>
@@ -2253,6 +2273,10 @@
             <source>Tracks by height σ</source>
             <translation>轨迹按高程 σ</translation>
         </message>
+        <message>
+            <source>Tracks by residual</source>
+            <translation>按残差着色</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::AccuracyModel</name>
@@ -2650,10 +2674,6 @@
             <translation>线已绘制：重新处理后曲面将遵循它。</translation>
         </message>
         <message>
-            <source>exclude a stretch</source>
-            <translation>排除一段</translation>
-        </message>
-        <message>
             <source>%1 is left out from %2 to %3 s: process again to see what it changes.</source>
             <translation>%1 的 %2 至 %3 秒已排除：重新处理以查看变化。</translation>
         </message>
@@ -2809,6 +2829,16 @@
             <source>What the program did and what went wrong, with the cure. Newest below.</source>
             <translation>程序做了什么、出了什么问题及如何解决。最新的在最下面。</translation>
         </message>
+        <message numerus="yes">
+            <source>exclude %n stretches</source>
+            <translation>
+                <numerusform>排除 %n 段</numerusform>
+            </translation>
+        </message>
+        <message>
+            <source>%1 stretches, %2 s in all, are left out: process again to see what it changes.</source>
+            <translation>已排除 %1 段，共 %2 s：重新处理即可看到变化。</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::MapPanel</name>
@@ -2913,8 +2943,16 @@
             <translation>地面的着色方式，此处和三维视图相同：晕渲高程；其标准差；每平方米点数；高程是实测、内插还是外推；以及在“视图 &gt; 比较对象”选定后的高程变化。</translation>
         </message>
         <message>
-            <source>What the tracks are coloured by: one colour for each run, the GNSS fix, speed, height, or standard errors of the fused track.</source>
-            <translation>轨迹的着色方式：每个航次一种颜色、GNSS 定位状态、速度、高程，或融合轨迹的标准差。</translation>
+            <source>What the tracks are coloured by: one colour for each run, the GNSS fix, speed, height, standard errors of the fused track, or by how many of them the worst reading was off.</source>
+            <translation>轨迹的着色依据：每条测线一种颜色、GNSS 解类型、速度、高程、融合轨迹的标准差，或最差读数偏离了多少倍标准差。</translation>
+        </message>
+        <message>
+            <source>Select an area</source>
+            <translation>选择区域</translation>
+        </message>
+        <message>
+            <source>Drag a rectangle: all passes through it are selected, with Shift beside earlier ones.</source>
+            <translation>拖出矩形：选中穿过它的所有轨迹段；按住 Shift 可追加到已选的段。</translation>
         </message>
     </context>
     <context>
@@ -3327,6 +3365,18 @@
         <message>
             <source>A file that terrawalk tune wrote, or the CSV of terrawalk experiment fig10 and its like</source>
             <translation>terrawalk tune 写出的文件，或 terrawalk experiment fig10 等的 CSV</translation>
+        </message>
+        <message>
+            <source>Leave this mark out</source>
+            <translation>排除此点</translation>
+        </message>
+        <message>
+            <source>Leaves %1 out of the next run</source>
+            <translation>下次处理不再使用 %1</translation>
+        </message>
+        <message>
+            <source>Click a mark first</source>
+            <translation>请先点击一个控制点</translation>
         </message>
     </context>
     <context>

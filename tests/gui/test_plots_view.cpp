@@ -33,6 +33,8 @@ class TestPlotsView : public QObject {
     void histogramCountsEachErrorOnce();
     void everyPlotSaysSomething();
     void dragSelectsAStretch();
+    void keysSelectAStretch();
+    void clickOnAnErrorChoosesItsMark();
     void wheelZoomsAndRightDragMoves();
     void selectionElsewhereChoosesTheRun();
     void readoutHasTimeValueAndUnit();
@@ -279,23 +281,67 @@ void TestPlotsView::dragSelectsAStretch() {
     QVERIFY(!exclude->isEnabled());
     const double from_s = 20.0, to_s = 40.0;
     drag(view, from_s, to_s, Qt::LeftButton);
-    QVERIFY(selection.stretch());
+    QCOMPARE(selection.stretches().size(), 1U);
     const auto [left, right] = view.canvas().visibleX();
     const double pixel_s = (right - left) / view.canvas().width();
-    QVERIFY(std::abs(selection.stretch()->from_s - from_s) < 2 * pixel_s);
-    QVERIFY(std::abs(selection.stretch()->to_s - to_s) < 2 * pixel_s);
-    QCOMPARE(selection.stretch()->run, view.run());
+    QVERIFY(std::abs(selection.stretches().front().from_s - from_s) < 2 * pixel_s);
+    QVERIFY(std::abs(selection.stretches().front().to_s - to_s) < 2 * pixel_s);
+    QCOMPARE(selection.stretches().front().run, view.run());
     // Beyond the log there is nothing to select.
     drag(view, from_s, right + (right - left), Qt::LeftButton);
-    QVERIFY(selection.stretch()->to_s <= sample_.survey->runs.back().log.time_s.back());
+    QVERIFY(selection.stretches().front().to_s <= sample_.survey->runs.back().log.time_s.back());
 
     QSignalSpy asked(&view, &PlotsView::excludeAsked);
     view.setPlot(PlotKind::Barometer);
     QVERIFY(exclude->isEnabled());
     QTest::mouseClick(exclude, Qt::LeftButton);
     QCOMPARE(asked.size(), 1);
-    QCOMPARE(asked.front()[0].value<TrackStretch>(), *selection.stretch());
+    QCOMPARE(asked.front()[0].value<std::vector<TrackStretch>>(), selection.stretches());
     QCOMPARE(asked.front()[1].toString(), QString("barometer"));
+}
+
+void TestPlotsView::keysSelectAStretch() {
+    Selection selection;
+    PlotsView view(selection);
+    show(view);
+    view.setPlot(PlotKind::Speed);
+    QTest::qWait(30);
+    const auto [from, to] = view.canvas().visibleX();
+    for (int i = 0; i < 5; ++i) QTest::keyClick(&view.canvas(), Qt::Key_Right, Qt::ShiftModifier);
+    for (int i = 0; i < 3; ++i) QTest::keyClick(&view.canvas(), Qt::Key_Left, Qt::ControlModifier);
+    QCOMPARE(selection.stretches().size(), 1U);
+    const TrackStretch& stretch = selection.stretches().front();
+    QVERIFY(std::abs(stretch.to_s - stretch.from_s - 0.08 * (to - from)) < 1e-6);
+    QVERIFY(stretch.from_s < (from + to) / 2 && stretch.to_s > (from + to) / 2);
+}
+
+void TestPlotsView::clickOnAnErrorChoosesItsMark() {
+    Selection selection;
+    PlotsView view(selection);
+    show(view);
+    auto* exclude = view.findChild<QPushButton*>("excludeStretch");
+    for (const PlotKind kind : {PlotKind::NormalisedErrors, PlotKind::QuantileQuantile}) {
+        selection.clear();
+        view.setPlot(kind);
+        QTest::qWait(30);
+        const PlotSeries& dots = view.canvas().plot().panels[0].series[0];
+        QCOMPARE(static_cast<std::size_t>(dots.names.size()), dots.x.size());
+        QVERIFY(exclude->isVisible() && !exclude->isEnabled());
+        const auto mark = std::find_if(dots.names.begin(), dots.names.end(),
+                                       [](const QString& name) { return name != "ZERO"; });
+        const auto i = static_cast<std::size_t>(mark - dots.names.begin());
+        QWidget* widget = plotWidget(view);
+        const QPoint at =
+            widget->mapFrom(&view.canvas(), view.canvas().pixelOf(0, dots.x[i], dots.y[i]).toPoint());
+        QTest::mouseClick(widget, Qt::LeftButton, {}, at);
+        QCOMPARE(selection.item(), *mark);
+        QSignalSpy asked(&view, &PlotsView::excludeMarkAsked);
+        QVERIFY(exclude->isEnabled());
+        QTest::mouseClick(exclude, Qt::LeftButton);
+        QCOMPARE(asked.size(), 1);
+        QCOMPARE(asked.front()[0].toString(), *mark);
+        view.grab().save(QString("marked_%1.png").arg(static_cast<int>(kind)));
+    }
 }
 
 void TestPlotsView::wheelZoomsAndRightDragMoves() {
@@ -313,7 +359,7 @@ void TestPlotsView::wheelZoomsAndRightDragMoves() {
     QTest::qWait(30);
     drag(view, about_s, about_s + 5.0, Qt::RightButton);
     QVERIFY(std::abs(view.canvas().visibleX().first - (near.first - 5.0)) < 0.5);
-    QVERIFY(!selection.stretch());
+    QVERIFY(selection.stretches().empty());
     QTest::mouseDClick(plotWidget(view), Qt::LeftButton, {}, {300, 100});
     QCOMPARE(view.canvas().visibleX(), whole);
     QWheelEvent wheel({300, 100}, plotWidget(view)->mapToGlobal(QPointF(300, 100)), {}, {0, 120},

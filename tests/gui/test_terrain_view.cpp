@@ -515,8 +515,8 @@ void TestTerrainView::cardSelectsTheStretch() {
     view.pickAt(onPicture(view, sample_.map->marks.front().map_m));
     QVERIFY(view.picked_map_m());
     QTest::mouseClick(view.findChild<QPushButton*>("selectStretch"), Qt::LeftButton);
-    const auto& stretch = shown.selection->stretch();
-    QVERIFY(stretch);
+    QCOMPARE(shown.selection->stretches().size(), 1U);
+    const TrackStretch& stretch = shown.selection->stretches().front();
     // The nearest used point, sought here in the plain way.
     double least_m = HUGE_VAL, time_s = -1.0;
     std::size_t run = 0;
@@ -534,13 +534,13 @@ void TestTerrainView::cardSelectsTheStretch() {
     // The first mark is the zero point, the origin of the local frame: the hit lies within a pixel of it, so
     // the point may be another one that is as near.
     const double pixel_m = 1.0 / view.camera().pixelsPerMetre(view.camera().distance_m);
-    if (stretch->run == QString::fromStdString(sample_.survey->runs[run].id)) {
-        QVERIFY(stretch->to_s > stretch->from_s && stretch->to_s - stretch->from_s <= 10.0 + 1e-9);
+    if (stretch.run == QString::fromStdString(sample_.survey->runs[run].id)) {
+        QVERIFY(stretch.to_s > stretch.from_s && stretch.to_s - stretch.from_s <= 10.0 + 1e-9);
     }
     double best_m = HUGE_VAL;
     for (const GroundPoint& point : sample_.products->ground_points) {
-        const bool within = QString::fromStdString(sample_.survey->runs[point.run].id) == stretch->run &&
-                            point.time_s >= stretch->from_s && point.time_s <= stretch->to_s;
+        const bool within = QString::fromStdString(sample_.survey->runs[point.run].id) == stretch.run &&
+                            point.time_s >= stretch.from_s && point.time_s <= stretch.to_s;
         if (within && point.state == GroundPointState::Used) {
             best_m = std::min(best_m, point.enu_m.head<2>().norm());
         }

@@ -79,6 +79,9 @@ class WindowTest : public QObject {
     void startPageOffersTheSampleAndOneClickMakesItsDem();
     void clickTellsTheHeightThere();
     void stretchIsExcludedByDraggingAlongATrackAndUndoBringsItBack();
+    void areaSelectsAllPassesThroughIt();
+    void mapObeysTheKeysAlone();
+    void tracksAreColouredByTheirResiduals();
     void breaklineIsDrawnByClicksAndHoldsTheSurface();
     void profileShowsHeightsAlongALine();
     void reportIsShownSavedAndPrinted();
@@ -252,8 +255,8 @@ void WindowTest::stretchIsExcludedByDraggingAlongATrackAndUndoBringsItBack() {
     QTest::mouseMove(&map, onScreen(track.map_m[n / 3 + 50]));
     QTest::mouseMove(&map, onScreen(track.map_m[n / 3 + 120]));
     QTest::mouseRelease(&map, Qt::LeftButton, {}, onScreen(track.map_m[n / 3 + 120]));
-    QVERIFY(session().selection().stretch().has_value());
-    QCOMPARE(session().selection().stretch()->run.toStdString(), track.run_id);
+    QVERIFY(!session().selection().stretches().empty());
+    QCOMPARE(session().selection().stretches().front().run.toStdString(), track.run_id);
     action("exclude").trigger();
     QCOMPARE(session().edits().stretches.size(), std::size_t{1});
     QVERIFY(session().outdated());
@@ -266,6 +269,120 @@ void WindowTest::stretchIsExcludedByDraggingAlongATrackAndUndoBringsItBack() {
     QVERIFY(!window_->isWindowModified());
     action("redo").trigger();
     QCOMPARE(session().edits().stretches.size(), std::size_t{1});
+}
+
+void WindowTest::areaSelectsAllPassesThroughIt() {
+    processed();
+    MapView& map = window_->map();
+    action("tool_select_area").trigger();
+    const QPointF centre = map.scene().extent_m().center();
+    const QRectF area_m(centre - QPointF(3, 3), centre + QPointF(3, 3));
+    const auto drag = [&](const QRectF& m, Qt::KeyboardModifiers keys) {
+        const auto px = [&](QPointF at) {
+            return map.transform().toScreen(at).toPoint();
+        };
+        QTest::mousePress(&map, Qt::LeftButton, keys, px(m.topLeft()));
+        QTest::mouseMove(&map, px(m.center()));
+        QTest::mouseMove(&map, px(m.bottomRight()));
+        QTest::mouseRelease(&map, Qt::LeftButton, keys, px(m.bottomRight()));
+    };
+    drag(area_m, {});
+    const auto first = session().selection().stretches();
+    QVERIFY(first.size() > 1);
+    // Epochs within are selected, others are not, to a pixel.
+    const double pixel_m = 1.5 / map.transform().pixels_per_m;
+    std::size_t within = 0;
+    for (const MapTrack& track : session().map()->tracks) {
+        for (std::size_t i = 0; i < track.map_m.size(); ++i) {
+            const bool selected = std::any_of(first.begin(), first.end(), [&](const TrackStretch& s) {
+                return s.run.toStdString() == track.run_id && s.from_s <= track.time_s[i] &&
+                       track.time_s[i] <= s.to_s;
+            });
+            const QPointF at(track.map_m[i].x(), track.map_m[i].y());
+            if (selected) QVERIFY(area_m.adjusted(-pixel_m, -pixel_m, pixel_m, pixel_m).contains(at));
+            within += selected ? 1U : 0U;
+        }
+    }
+    QVERIFY(within > 20);
+    drag(area_m.translated(7, 0), Qt::ShiftModifier);
+    const auto both = session().selection().stretches();
+    QVERIFY(both.size() > first.size());
+    QVERIFY(std::equal(first.begin(), first.end(), both.begin()));
+    QTest::qWait(50);
+    QVERIFY(map.scene().sketch.vertices_m.isEmpty());
+    action("exclude").trigger();
+    QCOMPARE(session().edits().stretches.size(), both.size());
+    QVERIFY(session().selection().empty());
+    action("undo").trigger();  // all of them are one step
+    QVERIFY(session().edits().stretches.empty());
+}
+
+void WindowTest::mapObeysTheKeysAlone() {
+    processed();
+    MapView& map = window_->map();
+    map.setFocus();
+    const auto press = [&](Qt::Key key, int times = 1, Qt::KeyboardModifiers keys = {}) {
+        for (int i = 0; i < times; ++i) QTest::keyClick(&map, key, keys);
+    };
+    const QPointF middle_m = map.transform().centre_m;
+    action("tool_hard_line").trigger();
+    press(Qt::Key_Space);  // the cross
+    press(Qt::Key_Space);
+    press(Qt::Key_Right, 10);
+    press(Qt::Key_Down, 3, Qt::ShiftModifier);
+    press(Qt::Key_Space);
+    press(Qt::Key_Return);
+    QCOMPARE(session().edits().lines.size(), std::size_t{1});
+    const auto line = session().edits().lines[0].vertices_m;
+    QCOMPARE(line.size(), std::size_t{2});
+    QVERIFY(std::abs(line[0].x() - middle_m.x()) < 1e-6);
+    QVERIFY(std::abs((line[1].x() - line[0].x()) * map.transform().pixels_per_m - 80.0) < 1e-6);
+    QVERIFY(std::abs((line[0].y() - line[1].y()) * map.transform().pixels_per_m - 3.0) < 1e-6);
+    QCOMPARE(map.transform().centre_m, middle_m);
+
+    action("tool_select_area").trigger();
+    press(Qt::Key_Space);
+    press(Qt::Key_Left, 20);
+    press(Qt::Key_Up, 20);
+    QVERIFY(!session().selection().stretches().empty());
+    press(Qt::Key_Space);
+    const auto selected = session().selection().stretches();
+    press(Qt::Key_Left, 4);  // the area is done: moving on changes nothing
+    QCOMPARE(session().selection().stretches(), selected);
+    press(Qt::Key_Delete);
+    QCOMPARE(session().edits().stretches.size(), selected.size());
+
+    action("tool_pan").trigger();
+    QSignalSpy asked(&map, &MapView::placeAsked);
+    press(Qt::Key_Space);
+    QCOMPARE(asked.size(), 1);
+    press(Qt::Key_Escape);
+    press(Qt::Key_Right);  // without the cross the map moves
+    QVERIFY(map.transform().centre_m.x() > middle_m.x());
+}
+
+void WindowTest::tracksAreColouredByTheirResiduals() {
+    processed();
+    session().viewState().setColouring(TrackColouring::Residual);
+    const MapScene& scene = window_->map().scene();
+    const auto range = trackRange(scene);
+    QVERIFY(range && range->low == 0.0 && range->high == 4.0);
+    const auto& innovations = session().products()->innovations;
+    for (std::size_t run = 0; run < scene.survey->tracks.size(); ++run) {
+        const MapTrack& track = scene.survey->tracks[run];
+        QCOMPARE(track.residual_over_sigma.size(), track.map_m.size());
+        double worst = 0.0, drawn = 0.0;
+        for (const SensorInnovations& sensor : innovations[run]) {
+            for (const Innovation& reading : sensor.readings)
+                worst = std::max(worst, static_cast<double>(std::abs(reading.over_sigma)));
+        }
+        for (const double r : track.residual_over_sigma) drawn = std::max(drawn, std::isnan(r) ? 0.0 : r);
+        QCOMPARE(drawn, worst);
+        const TrackInk ink = trackInk(scene, run);
+        std::set<QRgb> colours;
+        for (std::size_t i = 0; i < track.map_m.size(); ++i) colours.insert(ink(i));
+        QVERIFY(colours.size() > 5);
+    }
 }
 
 void WindowTest::breaklineIsDrawnByClicksAndHoldsTheSurface() {
@@ -442,7 +559,7 @@ void WindowTest::arrowKeysChooseInTheTree() {
     const QString run = QString::fromStdString(session().survey()->runs.back().id);
     session().selection().select({run, 10.0, 20.0});
     QCOMPARE(tree->currentIndex().siblingAtColumn(0).data(SurveyTreeModel::IdRole).toString(), run);
-    QVERIFY(session().selection().stretch().has_value());  // the tree follows, and chooses nothing
+    QVERIFY(!session().selection().stretches().empty());  // the tree follows, and chooses nothing
     session().selection().clear();
     tree->setCurrentIndex({});
     QString first;
