@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/gui/figures.hpp"
 #include "app/gui/report_words.hpp"
 
 namespace terrawalk::gui {
@@ -11,9 +12,7 @@ namespace terrawalk::gui {
 namespace {
 
 QString length(double metres) {
-    // No minus before a zero.
-    const double rounded = std::round(metres * 1000.0) / 1000.0;
-    return QString::number(rounded == 0.0 ? 0.0 : rounded, 'f', 3).replace('-', QChar(0x2212));
+    return number(inUnit(metres), 3);
 }
 
 QString cell(const AccuracyGroup& group, int column) {

@@ -5,12 +5,14 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QTableView>
 #include <QTableWidget>
 #include <QVBoxLayout>
 #include <cmath>
 
 #include "app/gui/accuracy_words.hpp"
+#include "app/gui/figures.hpp"
 #include "app/gui/report_words.hpp"
 #include "app/gui/theme.hpp"
 
@@ -52,6 +54,9 @@ QWidget* figureCard(const KeyFigure& figure) {
 void fitHeight(QTableView& table) {
     int height = table.horizontalHeader()->sizeHint().height() + 2 * table.frameWidth() + 2;
     for (int row = 0; row < table.model()->rowCount(); ++row) height += table.rowHeight(row);
+    // Where the columns have no room, the bar under them must not lie on the last row.
+    if (table.horizontalHeader()->length() > table.width() - 2 * table.frameWidth())
+        height += table.horizontalScrollBar()->sizeHint().height();
     table.setFixedHeight(height);
 }
 
@@ -102,11 +107,12 @@ AccuracyPanel::AccuracyPanel(Selection& selection, QWidget* parent) : QWidget(pa
     figures_ = new QHBoxLayout;
     figures_->setSpacing(kGrid_px);
     column->addLayout(figures_);
-    column->addWidget(heading(tr("Errors by group, in metres")));
+    column->addWidget(heading(tr("Errors by group (%1)").arg(lengthUnit())));
     groups_ = new QTableView;
     groups_->setObjectName("groups");
     groups_->setModel(&model_);
     dress(*groups_);
+    groups_->installEventFilter(this);
     column->addWidget(groups_);
     words_ = new QLabel;
     words_->setWordWrap(true);
@@ -116,6 +122,7 @@ AccuracyPanel::AccuracyPanel(Selection& selection, QWidget* parent) : QWidget(pa
     marks_ = new QTableWidget;
     marks_->setObjectName("marks");
     dress(*marks_);
+    marks_->installEventFilter(this);
     column->addWidget(marks_);
     column->addStretch();
     auto* scroll = static_cast<QScrollArea*>(content_);
@@ -141,6 +148,12 @@ void AccuracyPanel::show(std::shared_ptr<const Products> products) {
     fitHeight(*groups_);
     fillWords(report);
     fillMarks(report);
+}
+
+bool AccuracyPanel::eventFilter(QObject* watched, QEvent* event) {
+    auto* table = qobject_cast<QTableView*>(watched);
+    if (table != nullptr && event->type() == QEvent::Resize) fitHeight(*table);
+    return QWidget::eventFilter(watched, event);
 }
 
 void AccuracyPanel::fillFigures(const SurveyReport& report) {
@@ -173,8 +186,8 @@ void AccuracyPanel::fillMarks(const SurveyReport& report) {
     marks_->clear();
     marks_->setColumnCount(5);
     marks_->setRowCount(static_cast<int>(rows.size()));
-    marks_->setHorizontalHeaderLabels(
-        {tr("Mark"), tr("Role"), tr("Height error (m)"), tr("Predicted σ (m)"), tr("Error / σ")});
+    marks_->setHorizontalHeaderLabels({tr("Mark"), tr("Role"), tr("Height error (%1)").arg(lengthUnit()),
+                                       tr("Predicted σ (%1)").arg(lengthUnit()), tr("Error / σ")});
     for (int column = 2; column < 5; ++column) {
         marks_->horizontalHeaderItem(column)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
     }
@@ -186,10 +199,10 @@ void AccuracyPanel::fillMarks(const SurveyReport& report) {
         const double d = r.difference_enu_m.z(), sigma = r.sigma_enu_m.z();
         marks_->setItem(row, 0, cell(text(r.mark), false));
         marks_->setItem(row, 1, cell(r.role == MarkRole::Control ? tr("control") : tr("check"), false));
-        QString words = signedLength(d);
-        marks_->setItem(row, 2, cell(words.chopped(2), true));
-        marks_->setItem(row, 3, cell(present(sigma) ? QString::number(sigma, 'f', 3) : "–", true));
-        auto* ratio = cell(present(sigma) ? QString::number(std::abs(d) / sigma, 'f', 1) : "–", true);
+        const QString words = signedLength(d);
+        marks_->setItem(row, 2, cell(words.left(words.indexOf(' ')), true));
+        marks_->setItem(row, 3, cell(present(sigma) ? number(inUnit(sigma), 3) : "–", true));
+        auto* ratio = cell(present(sigma) ? number(std::abs(d) / sigma, 1) : "–", true);
         if (present(sigma) && std::abs(d) > 1.96 * sigma) ratio->setForeground(warningColour());
         marks_->setItem(row, 4, ratio);
     }

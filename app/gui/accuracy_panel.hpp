@@ -23,6 +23,9 @@ class AccuracyPanel : public QWidget {
     /// @param products  null: says what to do first
     void show(std::shared_ptr<const Products> products);
 
+  protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
   private:
     void fillFigures(const SurveyReport& report);
     void fillMarks(const SurveyReport& report);

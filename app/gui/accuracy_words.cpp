@@ -3,6 +3,8 @@
 #include <QCoreApplication>
 #include <optional>
 
+#include "app/gui/figures.hpp"
+
 namespace terrawalk::gui {
 
 namespace {
@@ -15,16 +17,11 @@ std::optional<double> headlineRmse(const SurveyReport& report) {
 
 }  // namespace
 
-QString signedLength(double metres, int decimals) {
-    const QString number = QString::number(std::abs(metres), 'f', decimals);
-    return (metres < 0.0 ? QString(QChar(0x2212)) : QStringLiteral("+")) + number + " m";
-}
-
 QString changeOfFigures(const SurveyReport& before, const SurveyReport& after) {
     const auto was = headlineRmse(before), is = headlineRmse(after);
     if (!was || !is) return {};
-    return QCoreApplication::translate("AccuracyWords", "Height RMSE %1 against the last run (%2 → %3 m).")
-        .arg(signedLength(*is - *was), QString::number(*was, 'f', 3), QString::number(*is, 'f', 3));
+    return QCoreApplication::translate("AccuracyWords", "Height RMSE %1 against the last run (%2 → %3).")
+        .arg(signedLength(*is - *was), number(inUnit(*was), 3), lengthText(*is, 3));
 }
 
 }  // namespace terrawalk::gui

@@ -9,7 +9,4 @@ namespace terrawalk::gui {
 /// What became of the headline accuracy between two runs, in a sentence; empty where they cannot be compared.
 [[nodiscard]] QString changeOfFigures(const SurveyReport& before, const SurveyReport& after);
 
-/// A signed length with a true minus, e.g. "−0.12 m".
-[[nodiscard]] QString signedLength(double metres, int decimals = 3);
-
 }  // namespace terrawalk::gui

@@ -19,11 +19,24 @@ void Desktop::makeWindow() {
     connect(
         window_.get(), &MainWindow::languageAsked, this,
         [this](const QString& language) { setLanguage(language); }, Qt::QueuedConnection);
+    connect(
+        window_.get(), &MainWindow::figureStyleAsked, this,
+        [this](FigureStyle style) { setFigureStyle(style); }, Qt::QueuedConnection);
 }
 
 void Desktop::setLanguage(const QString& language) {
     QSettings().setValue("language", language);
     applyLanguage(language);
+    replaceWindow();
+}
+
+void Desktop::setFigureStyle(FigureStyle style) {
+    keepFigureStyle(style);
+    applyFigureStyle(style);
+    replaceWindow();
+}
+
+void Desktop::replaceWindow() {
     window_->keepLayout();
     const QRect place = window_->geometry();
     const bool visible = window_->isVisible();

@@ -21,6 +21,8 @@ class Desktop : public QObject {
   private:
     void makeWindow();
     void setLanguage(const QString& language);
+    void setFigureStyle(FigureStyle style);
+    void replaceWindow();
     SurveySession session_;
     MessageModel messages_;
     std::unique_ptr<MainWindow> window_;

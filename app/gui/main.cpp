@@ -3,6 +3,7 @@
 #include <QSettings>
 
 #include "app/gui/desktop.hpp"
+#include "app/gui/figures.hpp"
 #include "app/gui/language.hpp"
 #include "app/gui/theme.hpp"
 #include "app/pipeline/version.hpp"
@@ -39,6 +40,7 @@ int main(int argc, char** argv) {
     parser.addOption({"language", "en or zh_CN; without it the last one, or the system's.", "language"});
     parser.process(app);
 
+    applyFigureStyle(preferredFigureStyle());
     applyLanguage(parser.isSet("language") ? parser.value("language") : preferredLanguage());
     applyTheme(wantedTheme(parser));
     Desktop desktop;

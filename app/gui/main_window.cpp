@@ -409,6 +409,29 @@ void MainWindow::buildViewMenu() {
         const bool chinese = preferredLanguage().startsWith("zh");
         Q_EMIT languageAsked(chinese ? "en" : "zh_CN");
     });
+    buildFiguresMenu(*menu.addMenu(tr("&Units and numbers")));
+}
+
+void MainWindow::buildFiguresMenu(QMenu& menu) {
+    const FigureStyle now = figureStyle();
+    const auto add = [&](QActionGroup* group, const char* name, const QString& words, FigureStyle style) {
+        QAction* action = group->addAction(menu.addAction(words));
+        action->setObjectName(name);
+        action->setCheckable(true);
+        action->setChecked(style == now);
+        connect(action, &QAction::triggered, this, [this, style] { Q_EMIT figureStyleAsked(style); });
+    };
+    menu.menuAction()->setStatusTip(
+        tr("How lengths and numbers are written in the window; files and reports stay in metres"));
+    auto* units = new QActionGroup(this);
+    add(units, "unit_m", tr("Metres"), {LengthUnit::Metre, now.numbers});
+    add(units, "unit_ft", tr("Feet (0.3048 m)"), {LengthUnit::Foot, now.numbers});
+    add(units, "unit_us_ft", tr("US survey feet"), {LengthUnit::UsSurveyFoot, now.numbers});
+    menu.addSeparator();
+    auto* numbers = new QActionGroup(this);
+    add(numbers, "numbers_plain", QString("1234.56"), {now.unit, NumberStyle::Plain});
+    add(numbers, "numbers_grouped", QString::fromUtf8("1\u2009234.56"), {now.unit, NumberStyle::Grouped});
+    add(numbers, "numbers_comma", QString::fromUtf8("1\u2009234,56"), {now.unit, NumberStyle::Comma});
 }
 
 void MainWindow::buildCompareMenu(QMenu& menu) {
@@ -668,8 +691,7 @@ void MainWindow::excludeStretches(std::vector<TrackStretch> stretches, EditedSen
     }
     const TrackStretch& stretch = stretches.front();
     say(MessageKind::Info, tr("%1 is left out from %2 to %3 s: process again to see what it changes.")
-                               .arg(stretch.run, QString::number(stretch.from_s, 'f', 1),
-                                    QString::number(stretch.to_s, 'f', 1)));
+                               .arg(stretch.run, number(stretch.from_s, 1), number(stretch.to_s, 1)));
 }
 
 void MainWindow::leaveOut(int kind, const QString& id, bool out) {

@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 
+#include "app/gui/figures.hpp"
 #include "app/gui/map_view.hpp"
 #include "app/gui/message_model.hpp"
 #include "app/gui/survey_session.hpp"
@@ -62,6 +63,7 @@ class MainWindow : public QMainWindow {
 
   Q_SIGNALS:
     void languageAsked(const QString& language);
+    void figureStyleAsked(terrawalk::gui::FigureStyle style);
 
   protected:
     void closeEvent(QCloseEvent* event) override;
@@ -76,6 +78,7 @@ class MainWindow : public QMainWindow {
     void buildFileMenu();
     void buildEditMenu();
     void buildViewMenu();
+    void buildFiguresMenu(QMenu& menu);
     void buildCompareMenu(QMenu& menu);
     void fillCompareMenu(QMenu& menu);
     void saveSettingsAs();

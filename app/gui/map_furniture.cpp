@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "app/gui/figures.hpp"
 #include "app/gui/round_numbers.hpp"
 #include "app/pipeline/relief.hpp"
 
@@ -19,7 +20,7 @@ constexpr double kRampHeight_px = 96.0;
 constexpr double kRampWidth_px = 16.0;
 
 void drawScaleBar(QPainter& painter, const MapTransform& transform, const QPalette& palette) {
-    const double length_m = roundBelow(140.0 / transform.pixels_per_m);
+    const double length_m = roundLengthBelow(140.0 / transform.pixels_per_m);
     const double length_px = length_m * transform.pixels_per_m;
     const QFontMetricsF metrics(painter.font());
     const double height = metrics.height() + 8 + 2 * kPadding_px - 2;
@@ -57,8 +58,17 @@ struct LegendPart {
     RasterLegend legend;
 };
 
-QString value(double number, double range) {
-    return QString::number(number, 'f', range < 1.0 ? 2 : range < 100.0 ? 1 : 0).replace('-', QChar(0x2212));
+QString value(double given, double range) {
+    return number(given, range < 1.0 ? 2 : range < 100.0 ? 1 : 0);
+}
+
+/// Rasters and tracks are in metres; their legends are in what a person chose.
+RasterLegend inChosenUnit(RasterLegend legend) {
+    if (legend.unit != "m" && legend.unit != "m/s") return legend;
+    legend.unit = legend.unit == "m" ? lengthUnit() : speedUnit();
+    legend.low = inUnit(legend.low);
+    legend.high = inUnit(legend.high);
+    return legend;
 }
 
 QString titleOf(RasterLayer layer) {
@@ -114,7 +124,7 @@ QString unitOf(TrackColouring colouring) {
 std::vector<LegendPart> legendParts(const MapScene& scene) {
     std::vector<LegendPart> parts;
     if (scene.raster && !scene.raster->levels.empty()) {
-        parts.push_back({titleOf(scene.raster->layer), scene.raster->legend});
+        parts.push_back({titleOf(scene.raster->layer), inChosenUnit(scene.raster->legend)});
     }
     if (const auto classes = pointClasses(scene); !classes.empty()) {
         parts.push_back(classesPart(QCoreApplication::translate("MapFurniture", "Ground points"), classes));
@@ -132,7 +142,7 @@ std::vector<LegendPart> legendParts(const MapScene& scene) {
         legend.high = range->high;
         legend.open_above = scene.shown.colouring != TrackColouring::Height;
         legend.unit = unitOf(scene.shown.colouring);
-        parts.push_back({titleOf(scene.shown.colouring), std::move(legend)});
+        parts.push_back({titleOf(scene.shown.colouring), inChosenUnit(std::move(legend))});
     }
     return parts;
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "app/gui/figures.hpp"
 #include "app/gui/round_numbers.hpp"
 #include "app/gui/theme.hpp"
 #include "app/pipeline/relief.hpp"
@@ -509,8 +510,8 @@ void drawContours(QPainter& painter, const MapScene& scene, const MapTransform& 
         painter.setPen(QPen(QColor(60, 45, 30, contour.is_index ? 220 : 130), contour.is_index ? 1.4 : 0.8));
         painter.drawPolyline(line);
         if (!contour.is_index || line.size() < 12) continue;
-        const QString label =
-            QString::number(contour.level, 'f', contour.level == std::round(contour.level) ? 0 : 1);
+        const double level = inUnit(contour.level);
+        const QString label = number(level, std::abs(level - std::round(level)) < 1e-6 ? 0 : 1);
         const auto box = freePlace(line, seen, taken);
         if (!box) continue;
         taken << *box;

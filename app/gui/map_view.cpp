@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/gui/background.hpp"
+#include "app/gui/figures.hpp"
 #include "app/gui/map_furniture.hpp"
 #include "app/gui/round_numbers.hpp"
 
@@ -57,7 +58,7 @@ bool sameLines(const MapScene& a, const MapScene& b) {
 
 double contourInterval(const Products& products) {
     const double range_m = products.report.surface.highest_m - products.report.surface.lowest_m;
-    return range_m > 0.0 ? roundBelow(std::max(range_m / kContours, 0.05)) : 1.0;
+    return range_m > 0.0 ? roundLengthBelow(std::max(range_m / kContours, 0.05)) : metresOf(1.0);
 }
 
 }  // namespace
@@ -463,20 +464,18 @@ void MapView::leaveEvent(QEvent*) {
 
 QString readout(const MapScene& scene, QPointF map_m) {
     if (!scene.survey) return {};
-    QString line = MapView::tr("E %1 m   N %2 m")
-                       .arg(QString::number(map_m.x(), 'f', 2), QString::number(map_m.y(), 'f', 2));
+    QString line = MapView::tr("E %1 m   N %2 m").arg(number(map_m.x(), 2), number(map_m.y(), 2));
     const auto reading = scene.products ? readingAt(*scene.products, map_m) : std::nullopt;
     if (!reading) return line;
-    line += MapView::tr("   height %1 m").arg(QString::number(reading->height_m, 'f', 2));
-    if (reading->sigma_m) line += QString(" ± %1 m").arg(QString::number(*reading->sigma_m, 'f', 2));
+    line += MapView::tr("   height %1").arg(lengthText(reading->height_m));
+    if (reading->sigma_m) line += QString(" ± %1").arg(lengthText(*reading->sigma_m));
     return line;
 }
 
 QString measureText(const QPolygonF& vertices_m, bool closed) {
     if (vertices_m.size() < 2) return {};
-    QString words = QString::number(length(vertices_m), 'f', 2) + " m";
-    if (closed && vertices_m.size() > 2)
-        words += MapView::tr(", area %1 m²").arg(QString::number(area(vertices_m), 'f', 1));
+    QString words = lengthText(length(vertices_m));
+    if (closed && vertices_m.size() > 2) words += MapView::tr(", area %1").arg(areaText(area(vertices_m)));
     return words;
 }
 

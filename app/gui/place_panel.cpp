@@ -8,16 +8,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/figures.hpp"
 #include "app/gui/report_words.hpp"
 #include "app/gui/theme.hpp"
 
 namespace terrawalk::gui {
 
 namespace {
-
-QString metres(double value, int decimals = 2) {
-    return QString::number(value, 'f', decimals) + " m";
-}
 
 QLabel* label(const QString& text, const char* name = nullptr) {
     auto* made = new QLabel(text);
@@ -35,7 +32,7 @@ QLabel* line(const QString& text, const char* name = nullptr) {
     return made;
 }
 
-QLabel* number(const QString& text) {
+QLabel* figureLabel(const QString& text) {
     auto* made = new QLabel(text);
     made->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     return made;
@@ -66,7 +63,7 @@ class ShareBar : public QWidget {
 void addPart(QGridLayout& grid, const QString& name, double part_m, double sigma_m) {
     const int row = grid.rowCount();
     grid.addWidget(line(name), row, 0);
-    grid.addWidget(number(metres(part_m)), row, 1);
+    grid.addWidget(figureLabel(lengthText(part_m)), row, 1);
     grid.addWidget(new ShareBar(sigma_m > 0.0 ? part_m * part_m / (sigma_m * sigma_m) : 0.0), row + 1, 0, 1,
                    2);
 }
@@ -91,7 +88,7 @@ QString adviceText(const PlaceReport& place) {
         return place.nearest.empty()
                    ? PlacePanel::tr("Nobody walked here: there is no surface.")
                    : PlacePanel::tr("There is no surface here: the nearest hit lies %1 away.")
-                         .arg(metres(place.nearest.front().distance_m, 1));
+                         .arg(lengthText(place.nearest.front().distance_m, 1));
     }
     if (!place.parts) return PlacePanel::tr("The survey has too few points to tell how sure this height is.");
     const SigmaParts& p = *place.parts;
@@ -102,11 +99,12 @@ QString adviceText(const PlaceReport& place) {
         {p.interpolation_m, PlacePanel::tr("the way between the points")}};
     const auto largest = std::max_element(std::begin(causes), std::end(causes),
                                           [](const auto& a, const auto& b) { return a.first < b.first; });
-    QString advice = PlacePanel::tr("Most of it is %1 (%2).").arg(largest->second, metres(largest->first));
+    QString advice =
+        PlacePanel::tr("Most of it is %1 (%2).").arg(largest->second, lengthText(largest->first));
     const bool helps = *place.sigma_m - *place.sigma_after_pass_m > 0.05 * *place.sigma_m;
     return advice + " " +
            (helps ? PlacePanel::tr("One more pass here would bring %1 down to about %2.")
-                        .arg(metres(*place.sigma_m), metres(*place.sigma_after_pass_m))
+                        .arg(lengthText(*place.sigma_m), lengthText(*place.sigma_after_pass_m))
                   : PlacePanel::tr("One more pass here would hardly help."));
 }
 
@@ -130,26 +128,26 @@ void addSamples(QVBoxLayout& column, const PlaceReport& place) {
     grid->setHorizontalSpacing(kGrid_px);
     grid->setVerticalSpacing(2);
     grid->setColumnStretch(0, 1);
-    const QStringList heads{PlacePanel::tr("Run, time"), PlacePanel::tr("away"), PlacePanel::tr("height"),
-                            PlacePanel::tr("σ")};
+    const QStringList heads{PlacePanel::tr("Run, time"), PlacePanel::tr("away (%1)").arg(lengthUnit()),
+                            PlacePanel::tr("height"), PlacePanel::tr("σ")};
     for (int c = 0; c < heads.size(); ++c) {
-        auto* head = c == 0 ? line(heads[c]) : number(heads[c]);
+        auto* head = c == 0 ? line(heads[c]) : figureLabel(heads[c]);
         head->setObjectName("quiet");
         grid->addWidget(head, 0, c);
     }
     for (const NearSample& sample : place.nearest) {
         const int row = grid->rowCount();
         const QString run = QString::fromStdString(sample.run_id);
-        QString where = PlacePanel::tr("%1 %2 s").arg(run, QString::number(sample.time_s, 'f', 1));
+        QString where = PlacePanel::tr("%1 %2 s").arg(run, number(sample.time_s, 1));
         auto* first = line(where);
         if (sample.state != GroundPointState::Used) {
             first->setText(where + " · " + reportWords(name(sample.state)));
             first->setObjectName("quiet");
         }
         grid->addWidget(first, row, 0);
-        grid->addWidget(number(QString::number(sample.distance_m, 'f', 2)), row, 1);
-        grid->addWidget(number(QString::number(sample.height_m, 'f', 2)), row, 2);
-        grid->addWidget(number(QString::number(sample.sigma_height_m, 'f', 2)), row, 3);
+        grid->addWidget(figureLabel(number(inUnit(sample.distance_m), 2)), row, 1);
+        grid->addWidget(figureLabel(number(inUnit(sample.height_m), 2)), row, 2);
+        grid->addWidget(figureLabel(number(inUnit(sample.sigma_height_m), 2)), row, 3);
     }
     column.addLayout(grid);
 }
@@ -190,19 +188,16 @@ void PlacePanel::clear() {
 void PlacePanel::show(const PlaceReport& place) {
     rebuild();
     auto& column = *static_cast<QVBoxLayout*>(content_->layout());
-    auto* height = label(place.height_m ? metres(*place.height_m) +
-                                              (place.sigma_m ? " ± " + metres(*place.sigma_m) : QString())
+    auto* height = label(place.height_m ? lengthText(*place.height_m) +
+                                              (place.sigma_m ? " ± " + lengthText(*place.sigma_m) : QString())
                                         : tr("no surface"),
                          "figure");
     column.addWidget(height);
-    QString where =
-        tr("E %1, N %2")
-            .arg(QString::number(place.map_m.x(), 'f', 2), QString::number(place.map_m.y(), 'f', 2));
+    QString where = tr("E %1, N %2").arg(number(place.map_m.x(), 2), number(place.map_m.y(), 2));
     if (place.parts) {
-        where += tr(" · slope %1° · %2 m to the nearest point · %3 points/m² · %4")
-                     .arg(QString::number(std::atan(place.slope) * 180.0 / kPi, 'f', 0),
-                          QString::number(place.distance_m, 'f', 2),
-                          QString::number(place.density_per_m2, 'f', 1), sourceName(place.source));
+        where += tr(" · slope %1° · %2 to the nearest point · %3 points/m² · %4")
+                     .arg(number(std::atan(place.slope) * 180.0 / kPi, 0), lengthText(place.distance_m),
+                          number(place.density_per_m2, 1), sourceName(place.source));
     }
     column.addWidget(label(where, "quiet"));
     auto* advice = label(adviceText(place));

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "app/gui/figures.hpp"
 #include "app/gui/report_words.hpp"
 
 namespace terrawalk::gui {
@@ -21,10 +22,6 @@ constexpr std::size_t kMostGnssDots = 200'000;
 
 QString text(std::string_view utf8) {
     return QString::fromUtf8(utf8.data(), static_cast<qsizetype>(utf8.size()));
-}
-
-QString metres(double value) {
-    return QString::number(value, 'f', 3).replace('-', QChar(0x2212)) + " m";
 }
 
 double medianOf(std::vector<double> values) {
@@ -105,9 +102,9 @@ void keepInSight(Plot& plot) {
     const auto beyond = values.end() - std::upper_bound(values.begin(), values.end(), limit);
     if (beyond == 0 || limit <= 0.0) return;
     panel.highest = limit;
-    plot.note = QCoreApplication::translate("PlotData", "%1 readings lie above the picture, up to %2 m.")
+    plot.note = QCoreApplication::translate("PlotData", "%1 readings lie above the picture, up to %2.")
                     .arg(beyond)
-                    .arg(values.back(), 0, 'f', 1);
+                    .arg(lengthText(values.back(), 1));
 }
 
 constexpr double kDegrees = 180.0 / kPi;
@@ -571,7 +568,7 @@ Plot errorHistogram(const SurveyReport& report) {
     for (const double e : errors) square += e * e / n;
     plot.note = QCoreApplication::translate("PlotData", "n %1, mean %2, SD %3, RMSE %4")
                     .arg(errors.size())
-                    .arg(metres(m.mean), metres(m.sd), metres(std::sqrt(square)));
+                    .arg(lengthText(m.mean, 3), lengthText(m.sd, 3), lengthText(std::sqrt(square), 3));
     return plot;
 }
 
@@ -614,7 +611,7 @@ Plot quantiles(const SurveyReport& report) {
     plot.note = QCoreApplication::translate(
                     "PlotData", "n %1, median %2, NMAD %3. Ends that leave the line are heavier than normal.")
                     .arg(errors.size())
-                    .arg(metres(middle), metres(nmad));
+                    .arg(lengthText(middle, 3), lengthText(nmad, 3));
     return plot;
 }
 
@@ -926,6 +923,32 @@ Plot plotOf(PlotKind kind, std::size_t run, const Survey& survey, const Products
         plot.over_time = true;
         plot.x_label = QCoreApplication::translate("PlotData", "Time of the log");
         plot.x_unit = "s";
+    }
+    return inChosenUnit(std::move(plot));
+}
+
+Plot inChosenUnit(Plot plot) {
+    if (figureStyle().unit == LengthUnit::Metre) return plot;
+    const auto convert = [](std::vector<double>& values) {
+        std::transform(values.begin(), values.end(), values.begin(), inUnit);
+    };
+    const bool along = plot.x_unit == "m";
+    if (along) {
+        plot.x_unit = lengthUnit();
+        plot.bar_width = inUnit(plot.bar_width);
+    }
+    for (PlotPanel& panel : plot.panels) {
+        const bool length = panel.unit == "m", speed = panel.unit == "m/s";
+        if (length || speed) {
+            panel.unit = length ? lengthUnit() : speedUnit();
+            if (panel.highest) panel.highest = inUnit(*panel.highest);
+        }
+        for (PlotSeries& series : panel.series) {
+            if (along) convert(series.x);
+            if (!length && !speed) continue;
+            convert(series.y);
+            convert(series.half_band);
+        }
     }
     return plot;
 }

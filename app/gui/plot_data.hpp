@@ -97,6 +97,8 @@ struct Plot {
 /// @param tuning    of the searches that are known; null: none
 [[nodiscard]] Plot plotOf(PlotKind kind, std::size_t run, const Survey& survey, const Products* products,
                           const TuningData* tuning = nullptr);
+/// Lengths and speeds of a plot in metres, in what a person chose instead.
+[[nodiscard]] Plot inChosenUnit(Plot plot);
 /// Whether it shows searches for parameters, which may come from other files.
 [[nodiscard]] bool plotsSearches(PlotKind kind);
 

@@ -9,6 +9,7 @@
 #include <QVBoxLayout>
 #include <utility>
 
+#include "app/gui/figures.hpp"
 #include "app/gui/plot_canvas.hpp"
 #include "app/gui/theme.hpp"
 #include "survey/survey_edits.hpp"
@@ -263,11 +264,10 @@ void PlotsView::shadeSelection() {
         return;
     }
     exclude_->setEnabled(!shown.empty());
-    exclude_->setToolTip(shown.empty()
-                             ? tr("Drag along the time axis to select a stretch first")
-                             : tr("Leaves these readings of %1, %2 s to %3 s, out of the next run")
-                                   .arg(shown.front().run, QString::number(shown.front().from_s, 'f', 1),
-                                        QString::number(shown.back().to_s, 'f', 1)));
+    exclude_->setToolTip(shown.empty() ? tr("Drag along the time axis to select a stretch first")
+                                       : tr("Leaves these readings of %1, %2 s to %3 s, out of the next run")
+                                             .arg(shown.front().run, number(shown.front().from_s, 1),
+                                                  number(shown.back().to_s, 1)));
 }
 
 void PlotsView::themeChanged() {

@@ -5,6 +5,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "app/gui/figures.hpp"
 #include "app/gui/theme.hpp"
 #include "app/pipeline/place_report.hpp"
 
@@ -13,10 +14,6 @@ namespace terrawalk::gui {
 namespace {
 
 constexpr double kAround_s = 5.0;
-
-QString metres(double value, int decimals = 2) {
-    return QString::number(value, 'f', decimals).replace('-', QChar(0x2212)) + " m";
-}
 
 QString sourceText(std::uint8_t source) {
     switch (static_cast<CellSource>(source)) {
@@ -39,12 +36,11 @@ void addCell(const Products& products, const Eigen::Vector3d& map_m, PlaceFacts&
     if (std::isfinite(known.sigmas_m[*cell])) {
         facts.lines.emplace_back(
             PointCard::tr("1 σ"),
-            metres(static_cast<double>(known.sigmas_m[*cell])).prepend(QString::fromUtf8("± ")));
+            lengthText(static_cast<double>(known.sigmas_m[*cell])).prepend(QString::fromUtf8("± ")));
     }
     facts.lines.emplace_back(
         PointCard::tr("Density"),
-        PointCard::tr("%1 points/m²")
-            .arg(QString::number(static_cast<double>(known.density_per_m2[*cell]), 'f', 2)));
+        PointCard::tr("%1 points/m²").arg(number(static_cast<double>(known.density_per_m2[*cell]), 2)));
     facts.lines.emplace_back(PointCard::tr("Source"), sourceText(known.sources[*cell]));
 }
 
@@ -53,21 +49,21 @@ void addCell(const Products& products, const Eigen::Vector3d& map_m, PlaceFacts&
 PlaceFacts placeFacts(const Survey& survey, const Products& products,
                       const std::vector<Eigen::Vector3d>& points_map_m, const Eigen::Vector3d& map_m) {
     PlaceFacts facts;
-    facts.title = PointCard::tr("Height %1").arg(metres(map_m.z()));
+    facts.title = PointCard::tr("Height %1").arg(lengthText(map_m.z()));
     addCell(products, map_m, facts);
-    facts.lines.emplace_back("E", metres(map_m.x()));
-    facts.lines.emplace_back("N", metres(map_m.y()));
+    facts.lines.emplace_back("E", number(map_m.x(), 2) + " m");
+    facts.lines.emplace_back("N", number(map_m.y(), 2) + " m");
     const auto nearest = nearestCarrying(products, points_map_m, map_m.head<2>());
     if (!nearest) return facts;
     const GroundPoint& point = products.ground_points[nearest->point];
     const QString run = QString::fromStdString(survey.runs[point.run].id);
     facts.lines.emplace_back(PointCard::tr("Nearest sample"),
-                             PointCard::tr("%1 away").arg(metres(nearest->distance_m)));
+                             PointCard::tr("%1 away").arg(lengthText(nearest->distance_m)));
     facts.lines.emplace_back(PointCard::tr("Its run, time"),
-                             QString::fromUtf8("%1, %2 s").arg(run, QString::number(point.time_s, 'f', 1)));
-    facts.lines.emplace_back(
-        PointCard::tr("Its height"),
-        QString::fromUtf8("%1 ± %2").arg(metres(points_map_m[nearest->point].z()), metres(point.sigma_u_m)));
+                             QString::fromUtf8("%1, %2 s").arg(run, number(point.time_s, 1)));
+    facts.lines.emplace_back(PointCard::tr("Its height"),
+                             QString::fromUtf8("%1 ± %2").arg(lengthText(points_map_m[nearest->point].z()),
+                                                              lengthText(point.sigma_u_m)));
     const auto& times = survey.runs[point.run].log.time_s;
     facts.around = TrackStretch{run, std::max(point.time_s - kAround_s, times.front()),
                                 std::min(point.time_s + kAround_s, times.back())};

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "app/gui/figures.hpp"
+
 namespace terrawalk::gui {
 
 namespace {
@@ -60,7 +62,7 @@ Plot profilePlot(const Products& products, const SurveyMap& map, const QPolygonF
     panel.series.push_back(std::move(surface));
     if (!marks.x.empty()) panel.series.push_back(std::move(marks));
     plot.panels.push_back(std::move(panel));
-    return plot;
+    return inChosenUnit(std::move(plot));
 }
 
 }  // namespace terrawalk::gui

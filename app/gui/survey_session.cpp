@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/gui/accuracy_words.hpp"
+#include "app/gui/figures.hpp"
 #include "app/gui/report_words.hpp"
 #include "app/gui/setting_editor.hpp"
 #include "app/pipeline/jobs.hpp"
@@ -242,8 +243,8 @@ void SurveySession::takeChange(Result<HeightChange> change) {
     if (!change) return fail(change.error());
     const HeightChange& c = *change;
     const auto cells = static_cast<double>(c.difference.all.cells);
-    QString words = tr("Less %1: median %2, RMS %3 m.")
-                        .arg(text(c.earlier), signedLength(c.median_m), QString::number(c.rms_m, 'f', 3));
+    QString words = tr("Less %1: median %2, RMS %3.")
+                        .arg(text(c.earlier), signedLength(c.median_m), lengthText(c.rms_m, 3));
     if (c.has_sigma) {
         const auto sure = static_cast<double>(c.difference.raised + c.difference.lowered);
         words +=

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/gui/accuracy_words.hpp"
+#include "app/gui/figures.hpp"
 #include "app/gui/map_scene.hpp"
 #include "app/gui/theme.hpp"
 
@@ -133,7 +134,7 @@ void SurveyTreeModel::addRuns(const Survey& survey, const Products* products, co
         if (run.target) help += tr(", ends on %1").arg(text(*run.target));
         help += tr("; %1 records").arg(run.log.size());
         if (const RunReport* report = products != nullptr ? reportOf(*products, run.id) : nullptr) {
-            words = tr("%1 m, %2").arg(QString::number(report->distance_m, 'f', 0), words);
+            words = tr("%1, %2").arg(lengthText(report->distance_m, 0), words);
             help += tr("; %1 ground points used").arg(report->ground_points_used);
         }
         made->setToolTip(help);
@@ -203,7 +204,7 @@ void SurveyTreeModel::addResults(const Products& products, const ViewChoice& sho
                                                  .arg(report.surface.cell_m));
     if (products.uncertainty && report.surface.uncertainty) {
         add(entry(tr("Uncertainty"), ResultItem, "uncertainty"),
-            tr("median %1 m").arg(QString::number(report.surface.uncertainty->median_m, 'f', 2)));
+            tr("median %1").arg(lengthText(report.surface.uncertainty->median_m)));
     }
     add(entry(tr("Mesh"), ResultItem, "mesh"), tr("%1 triangles").arg(report.surface.triangles));
     if (products.terrace_edges.empty()) return;

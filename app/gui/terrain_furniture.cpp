@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/figures.hpp"
 #include "app/gui/map_furniture.hpp"
 #include "app/gui/round_numbers.hpp"
 #include "app/gui/terrain_overlay.hpp"
@@ -94,15 +95,13 @@ void drawHeights(QPainter& painter, const TerrainFrame& frame, const QPalette& p
     const QFontMetricsF metrics(painter.font());
     const double length_px = std::hypot(head->x() - foot->x(), head->y() - foot->y());
     const double tick_m =
-        std::max(roundBelow((top_m - floor_m) / std::max(1.0, length_px / 28.0) * 1.5), 0.01);
+        std::max(roundLengthBelow((top_m - floor_m) / std::max(1.0, length_px / 28.0) * 1.5), 0.01);
     for (const double h : wholeSteps(floor_m, top_m, tick_m)) {
         const auto tick = at(h);
         if (!tick) continue;
         painter.setPen(QPen(palette.color(QPalette::Text), 1.0));
         painter.drawLine(*tick, *tick - QPointF(5, 0));
-        const QString text = QString::number(std::abs(h) < tick_m * 1e-6 ? 0.0 : h, 'f', tick_m < 1.0 ? 1 : 0)
-                                 .replace('-', QChar(0x2212)) +
-                             " m";
+        const QString text = lengthText(h, inUnit(tick_m) < 1.0 - 1e-9 ? 1 : 0);
         drawHaloed(painter, *tick - QPointF(9.0 + metrics.horizontalAdvance(text), -metrics.ascent() * 0.4),
                    text, palette);
     }

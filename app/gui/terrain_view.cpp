@@ -16,9 +16,9 @@
 #include <utility>
 
 #include "app/gui/background.hpp"
+#include "app/gui/figures.hpp"
 #include "app/gui/map_view.hpp"
 #include "app/gui/point_card.hpp"
-#include "app/gui/round_numbers.hpp"
 #include "app/gui/show_menu.hpp"
 #include "app/gui/terrain_furniture.hpp"
 #include "app/gui/terrain_overlay.hpp"
@@ -314,7 +314,7 @@ void TerrainView::chooseContours() {
     frame_.contour_interval_m = 0.0;
     if (!map_.shown.contours || !frame_.scene) return;
     const double range_m = frame_.scene->highest_m() - frame_.scene->lowest_m();
-    if (range_m > 0.0) frame_.contour_interval_m = roundBelow(1.5 * range_m / kContoursInRange);
+    if (range_m > 0.0) frame_.contour_interval_m = roundLengthBelow(1.5 * range_m / kContoursInRange);
 }
 
 void TerrainView::followState() {

@@ -4,8 +4,8 @@
     <context>
         <name>AccuracyWords</name>
         <message>
-            <source>Height RMSE %1 against the last run (%2 → %3 m).</source>
-            <translation>高程 RMSE 较上次 %1（%2 → %3 m）。</translation>
+            <source>Height RMSE %1 against the last run (%2 → %3).</source>
+            <translation>高程 RMSE 较上次 %1（%2 → %3）。</translation>
         </message>
     </context>
     <context>
@@ -104,10 +104,6 @@
     </context>
     <context>
         <name>PlotData</name>
-        <message>
-            <source>%1 readings lie above the picture, up to %2 m.</source>
-            <translation>%1 个读数在图外上方，最大 %2 m。</translation>
-        </message>
         <message>
             <source>Fix code</source>
             <translation>定位代码</translation>
@@ -519,6 +515,10 @@
         <message>
             <source>Optimisers compared</source>
             <translation>优化器比较</translation>
+        </message>
+        <message>
+            <source>%1 readings lie above the picture, up to %2.</source>
+            <translation>%1 个读数超出图面，最大 %2。</translation>
         </message>
     </context>
     <context>
@@ -2324,10 +2324,6 @@
             <translation>尚无可评价的结果。请先处理测量，标志点处的误差将显示在这里。</translation>
         </message>
         <message>
-            <source>Errors by group, in metres</source>
-            <translation>分组误差（米）</translation>
-        </message>
-        <message>
             <source>Surface less mark, the largest first</source>
             <translation>曲面减标志点，由大到小</translation>
         </message>
@@ -2352,14 +2348,6 @@
             <translation>用途</translation>
         </message>
         <message>
-            <source>Height error (m)</source>
-            <translation>高程误差 (m)</translation>
-        </message>
-        <message>
-            <source>Predicted σ (m)</source>
-            <translation>预测 σ (m)</translation>
-        </message>
-        <message>
             <source>Error / σ</source>
             <translation>误差 / σ</translation>
         </message>
@@ -2370,6 +2358,18 @@
         <message>
             <source>check</source>
             <translation>检核</translation>
+        </message>
+        <message>
+            <source>Height error (%1)</source>
+            <translation>高程误差 (%1)</translation>
+        </message>
+        <message>
+            <source>Predicted σ (%1)</source>
+            <translation>预测 σ (%1)</translation>
+        </message>
+        <message>
+            <source>Errors by group (%1)</source>
+            <translation>按组误差 (%1)</translation>
         </message>
     </context>
     <context>
@@ -2839,6 +2839,26 @@
             <source>%1 stretches, %2 s in all, are left out: process again to see what it changes.</source>
             <translation>已排除 %1 段，共 %2 s：重新处理即可看到变化。</translation>
         </message>
+        <message>
+            <source>&amp;Units and numbers</source>
+            <translation>单位与数字(&amp;U)</translation>
+        </message>
+        <message>
+            <source>How lengths and numbers are written in the window; files and reports stay in metres</source>
+            <translation>窗口中长度与数字的写法；文件和报告始终使用米</translation>
+        </message>
+        <message>
+            <source>Metres</source>
+            <translation>米</translation>
+        </message>
+        <message>
+            <source>Feet (0.3048 m)</source>
+            <translation>英尺（0.3048 m）</translation>
+        </message>
+        <message>
+            <source>US survey feet</source>
+            <translation>美国测量英尺</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::MapPanel</name>
@@ -2966,12 +2986,12 @@
             <translation>E %1 m   N %2 m</translation>
         </message>
         <message>
-            <source>   height %1 m</source>
-            <translation>   高程 %1 m</translation>
+            <source>   height %1</source>
+            <translation>   高程 %1</translation>
         </message>
         <message>
-            <source>, area %1 m²</source>
-            <translation>，面积 %1 m²</translation>
+            <source>, area %1</source>
+            <translation>，面积 %1</translation>
         </message>
     </context>
     <context>
@@ -3212,10 +3232,6 @@
             <translation>航次，时间</translation>
         </message>
         <message>
-            <source>away</source>
-            <translation>距离</translation>
-        </message>
-        <message>
             <source>height</source>
             <translation>高程</translation>
         </message>
@@ -3238,10 +3254,6 @@
         <message>
             <source>E %1, N %2</source>
             <translation>E %1，N %2</translation>
-        </message>
-        <message>
-            <source> · slope %1° · %2 m to the nearest point · %3 points/m² · %4</source>
-            <translation> · 坡度 %1° · 距最近点 %2 m · %3 点/m² · %4</translation>
         </message>
         <message>
             <source>Nobody walked here: there is no surface.</source>
@@ -3282,6 +3294,14 @@
         <message>
             <source>One more pass here would hardly help.</source>
             <translation>再走一遍帮助不大。</translation>
+        </message>
+        <message>
+            <source>away (%1)</source>
+            <translation>距离 (%1)</translation>
+        </message>
+        <message>
+            <source> · slope %1° · %2 to the nearest point · %3 points/m² · %4</source>
+            <translation> · 坡度 %1° · 距最近点 %2 · %3 点/m² · %4</translation>
         </message>
     </context>
     <context>
@@ -3376,7 +3396,7 @@
         </message>
         <message>
             <source>Click a mark first</source>
-            <translation>请先点击一个控制点</translation>
+            <translation>请先单击一个标志点</translation>
         </message>
     </context>
     <context>
@@ -3862,12 +3882,12 @@
             <translation>%1 的处理</translation>
         </message>
         <message>
-            <source>Less %1: median %2, RMS %3 m.</source>
-            <translation>减去%1：中位数 %2，RMS %3 m。</translation>
-        </message>
-        <message>
             <source>%1 % of the cells changed beyond 1.96 σ.</source>
             <translation>%1 % 的格网变化超出 1.96 σ。</translation>
+        </message>
+        <message>
+            <source>Less %1: median %2, RMS %3.</source>
+            <translation>减去 %1：中位数 %2，RMS %3。</translation>
         </message>
     </context>
     <context>
@@ -3931,10 +3951,6 @@
         <message>
             <source>; %1 records</source>
             <translation>；%1 条记录</translation>
-        </message>
-        <message>
-            <source>%1 m, %2</source>
-            <translation>%1 m，%2</translation>
         </message>
         <message>
             <source>; %1 ground points used</source>
@@ -4007,10 +4023,6 @@
             <translation>不确定度</translation>
         </message>
         <message>
-            <source>median %1 m</source>
-            <translation>中位数 %1 m</translation>
-        </message>
-        <message>
             <source>Mesh</source>
             <translation>网格</translation>
         </message>
@@ -4021,6 +4033,14 @@
         <message>
             <source>Terrace edges</source>
             <translation>梯田边缘</translation>
+        </message>
+        <message>
+            <source>%1, %2</source>
+            <translation>%1，%2</translation>
+        </message>
+        <message>
+            <source>median %1</source>
+            <translation>中位数 %1</translation>
         </message>
     </context>
     <context>

@@ -36,6 +36,7 @@
 #include "app/gui/new_survey_dialog.hpp"
 #include "app/gui/plot_canvas.hpp"
 #include "app/gui/plots_view.hpp"
+#include "app/gui/profile_plot.hpp"
 #include "app/gui/report_view.hpp"
 #include "app/gui/report_words.hpp"
 #include "app/gui/setting_editor.hpp"
@@ -82,6 +83,7 @@ class WindowTest : public QObject {
     void areaSelectsAllPassesThroughIt();
     void mapObeysTheKeysAlone();
     void tracksAreColouredByTheirResiduals();
+    void unitsAndNumbersAreChosen();
     void breaklineIsDrawnByClicksAndHoldsTheSurface();
     void profileShowsHeightsAlongALine();
     void reportIsShownSavedAndPrinted();
@@ -154,6 +156,7 @@ void WindowTest::init() {
     fs::copy(TERRAWALK_SOURCE_DIR "/sample_surveys/quick_plot", sample_.toStdString(),
              fs::copy_options::recursive);
     applyLanguage("en");
+    applyFigureStyle({});
     desktop_ = std::make_unique<Desktop>();
     window_ = &desktop_->window();
     window_->resize(1280, 800);
@@ -383,6 +386,52 @@ void WindowTest::tracksAreColouredByTheirResiduals() {
         for (std::size_t i = 0; i < track.map_m.size(); ++i) colours.insert(ink(i));
         QVERIFY(colours.size() > 5);
     }
+}
+
+void WindowTest::unitsAndNumbersAreChosen() {
+    // 1 m is 3937/1200 US survey feet, exactly; 0.3048 m an international one.
+    applyFigureStyle({LengthUnit::UsSurveyFoot, NumberStyle::Plain});
+    QCOMPARE(lengthText(1200.0), QString("3937.00 US ft"));
+    QCOMPARE(areaText(1200.0 * 1200.0), QString("15499969.0 US ft²"));
+    applyFigureStyle({LengthUnit::Foot, NumberStyle::Comma});
+    QCOMPARE(lengthText(-0.3048 * 1234567.25), QString::fromUtf8("−1\u2009234\u2009567,25 ft"));
+    QCOMPARE(signedLength(-0.0001, 2), QString("+0,00 ft"));
+    QCOMPARE(number(999.0, 0), QString("999"));
+    QCOMPARE(number(-1000.0, 0), QString::fromUtf8("−1\u2009000"));
+    applyFigureStyle({});
+
+    processed();
+    const auto height_m = session().products()->report.surface.highest_m;
+    const auto profiled = [&] {
+        const QRectF extent = window_->map().scene().extent_m();
+        return profilePlot(*session().products(), *session().map(),
+                           QPolygonF({extent.center() - QPointF(4, 0), extent.center() + QPointF(4, 0)}));
+    };
+    const Plot metric = profiled();
+    const Plot sigma_m = plotOf(PlotKind::Sigma, 0, *session().survey(), session().products().get());
+    action("unit_ft").trigger();
+    QTRY_VERIFY(&desktop_->window() != window_);
+    window_ = &desktop_->window();
+    QTRY_VERIFY_WITH_TIMEOUT(idle() && !window_->map().preparing(), kLong_ms);
+    QVERIFY(action("unit_ft").isChecked() && !action("unit_m").isChecked());
+    QVERIFY(session().products());  // nothing was lost
+    QCOMPARE(preferredFigureStyle().unit, LengthUnit::Foot);
+    const Plot imperial = profiled();
+    QCOMPARE(imperial.x_unit, QString("ft"));
+    QCOMPARE(imperial.panels[0].unit, QString("ft"));
+    for (std::size_t i = 0; i < metric.panels[0].series[0].x.size(); ++i) {
+        QVERIFY(std::abs(imperial.panels[0].series[0].x[i] * 0.3048 - metric.panels[0].series[0].x[i]) <
+                1e-9);
+    }
+    const Plot sigma_ft = plotOf(PlotKind::Sigma, 0, *session().survey(), session().products().get());
+    QVERIFY(std::abs(sigma_ft.panels[0].series[0].y[9] * 0.3048 - sigma_m.panels[0].series[0].y[9]) < 1e-12);
+    const QString read = readout(window_->map().scene(), window_->map().scene().extent_m().center());
+    QVERIFY2(read.contains(" ft") && read.contains(" m "), qPrintable(read));    // coordinates stay in metres
+    QVERIFY(height_m < session().products()->report.surface.highest_m + 1e-12);  // and so does the survey
+    action("unit_m").trigger();
+    QTRY_VERIFY(&desktop_->window() != window_);
+    window_ = &desktop_->window();
+    QVERIFY(readout(window_->map().scene(), window_->map().scene().extent_m().center()).count(" ft") == 0);
 }
 
 void WindowTest::breaklineIsDrawnByClicksAndHoldsTheSurface() {
