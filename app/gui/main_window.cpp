@@ -37,6 +37,7 @@
 #include "app/gui/profile_plot.hpp"
 #include "app/gui/recent_surveys.hpp"
 #include "app/gui/report_view.hpp"
+#include "app/gui/settings_dialog.hpp"
 #include "app/gui/shortcuts_dialog.hpp"
 #include "app/gui/show_menu.hpp"
 #include "app/gui/start_page.hpp"
@@ -216,6 +217,7 @@ void MainWindow::buildDocks() {
     connect(steps_, &StepsPanel::exportAsked, this, &MainWindow::askForExport);
     connect(steps_, &StepsPanel::commandAsked, this, &MainWindow::copyCommand);
     connect(steps_, &StepsPanel::accuracyAsked, this, [this] { views_->setCurrentWidget(accuracy_); });
+    connect(steps_, &StepsPanel::settingsAsked, this, &MainWindow::showSettings);
     place_ = new PlacePanel;
     messages_ = new QListView;
     messages_->setObjectName("messages");
@@ -383,6 +385,9 @@ void MainWindow::buildEditMenu() {
         for (QAction* action : only->actions())
             action->setEnabled(session_.selection().stretch().has_value());
     });
+    menu.addSeparator();
+    addAction(menu, "settings", "settings", tr("All se&ttings…"), QKeySequence("Ctrl+,"),
+              [this] { showSettings(StepKind::Fuse); });
     menu.addSeparator();
     menu.addActions(map_->toolActions());
 }
@@ -710,6 +715,14 @@ void MainWindow::showProfile(const QPolygonF& line_m) {
     if (!profile_dock_->isVisible()) messages_height_px_ = message_dock_->height();
     profile_dock_->show();
     profile_dock_->raise();
+}
+
+void MainWindow::showSettings(StepKind step) {
+    if (settings_ == nullptr) settings_ = new SettingsDialog(session_, this);
+    settings_->show();
+    settings_->raise();
+    settings_->activateWindow();
+    settings_->showStep(step);
 }
 
 void MainWindow::showShortcuts() {

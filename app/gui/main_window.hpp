@@ -7,6 +7,7 @@
 
 #include "app/gui/map_view.hpp"
 #include "app/gui/message_model.hpp"
+#include "app/gui/steps.hpp"
 #include "app/gui/survey_session.hpp"
 #include "app/gui/survey_tree_model.hpp"
 #include "app/gui/theme.hpp"
@@ -28,6 +29,7 @@ class PlotCanvas;
 class PlotsView;
 class TerrainView;
 class ReportView;
+class SettingsDialog;
 class StartPage;
 class StepsPanel;
 
@@ -106,6 +108,7 @@ class MainWindow : public QMainWindow {
     void treeMenu(const QPoint& at);
     void showProfile(const QPolygonF& line_m);
     void showShortcuts();
+    void showSettings(StepKind step);
     void showAbout();
     void themeIcons();
     void say(MessageKind kind, const QString& text);
@@ -127,6 +130,7 @@ class MainWindow : public QMainWindow {
     ReportView* report_ = nullptr;
     PlacePanel* place_ = nullptr;
     StepsPanel* steps_ = nullptr;
+    SettingsDialog* settings_ = nullptr;  ///< made when it is first asked for
     QTreeView* tree_ = nullptr;
     QListView* messages_ = nullptr;
     QLabel* readout_ = nullptr;

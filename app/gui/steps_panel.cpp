@@ -29,12 +29,8 @@ QString text(const std::string& utf8) {
 bool stepChanged(const Step& step, const SurveySession& session) {
     const auto& run = session.history()[session.shownRun()];
     const auto keys = session.settings().differences(run.settings);
-    return std::any_of(keys.begin(), keys.end(), [&](const std::string& key) {
-        return std::any_of(step.prefixes.begin(), step.prefixes.end(), [&](const QString& prefix) {
-            const bool cleaning = text(key).startsWith("surface.clean.");
-            return text(key).startsWith(prefix) && !(step.kind == StepKind::Surface && cleaning);
-        });
-    });
+    return std::any_of(keys.begin(), keys.end(),
+                       [&](const std::string& key) { return belongsTo(step, text(key)); });
 }
 
 }  // namespace
@@ -48,7 +44,12 @@ StepsPanel::StepsPanel(SurveySession& session, QWidget* parent) : QWidget(parent
         auto* card = new StepCard(session, step);
         cards_[step.kind] = card;
         column->addWidget(card);
+        connect(card, &StepCard::furtherAsked, this,
+                [this, kind = step.kind] { Q_EMIT settingsAsked(kind); });
     }
+    int names_px = 0;
+    for (const auto& [kind, card] : cards_) names_px = std::max(names_px, card->namesWidth_px());
+    for (const auto& [kind, card] : cards_) card->setNamesWidth(names_px);
     column->addStretch();
     auto* scroll = new QScrollArea;
     scroll->setWidget(list);

@@ -31,6 +31,8 @@ class StepsPanel : public QWidget {
     void exportAsked();
     void commandAsked();
     void accuracyAsked();
+    /// All settings are to be shown, from those of that step on.
+    void settingsAsked(terrawalk::gui::StepKind step);
 
   private:
     void fillCards();

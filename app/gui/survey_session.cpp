@@ -285,8 +285,14 @@ bool SurveySession::changeSetting(const QString& key, const QString& value) {
         fail(done.error());
         return false;
     }
-    changeSettings(changed, tr("%1 = %2").arg(settingLabel(key), value));
+    changeSettings(changed, tr("%1 = %2").arg(settingLabel(key), settingValueWords(key, value)));
     return true;
+}
+
+void SurveySession::resetSettings() {
+    RunSettings defaults;
+    defaults.setEdits(edits());
+    changeSettings(defaults, tr("all settings back to their defaults"));
 }
 
 void SurveySession::changeEdits(const SurveyEdits& edits, const QString& what) {

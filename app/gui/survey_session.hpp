@@ -64,6 +64,8 @@ class SurveySession : public QObject {
 
     /// Sets one setting, undoably. Refused values become a message, and the setting stays.
     bool changeSetting(const QString& key, const QString& text);
+    /// All of them back to their defaults, undoably; edits stay.
+    void resetSettings();
     /// @param what  for the undo menu, e.g. "exclude a stretch"
     void changeEdits(const SurveyEdits& edits, const QString& what);
     void changeSettings(const RunSettings& settings, const QString& what);

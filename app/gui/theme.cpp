@@ -103,8 +103,15 @@ QLabel#title { font-size: 22px; font-weight: 600; }
 QLabel#heading { font-size: 15px; font-weight: 600; }
 QLabel#figure { font-size: 19px; font-weight: 600; }
 QLabel#cardTitle { font-weight: 600; }
-QToolButton#fold { border: 0; color: %quiet; padding: 4px 0; }
-QToolButton#fold:hover, QToolButton#fold:focus { color: %accent; }
+QLabel#settingName[changed="true"] { color: %accent; font-weight: 600; }
+QToolButton#further { border: 0; color: %quiet; padding: 4px 0; }
+QToolButton#further:hover, QToolButton#further:focus { color: %accent; text-decoration: underline; }
+QToolButton#reset { border: 0; border-radius: 4px; padding: 3px; }
+QToolButton#reset:hover, QToolButton#reset:focus { background: %line; }
+QListWidget#settingGroups { border: 0; border-right: 1px solid %line; background: %window; padding: 8px 0; outline: 0; }
+QListWidget#settingGroups::item { border: 0; padding: 4px 12px; }
+QListWidget#settingGroups::item:selected { background: %accent; color: %onaccent; }
+QWidget#settingRow { border-bottom: 1px solid %line; }
 QCheckBox { spacing: 8px; }
 QCheckBox::indicator, QTreeView::indicator { width: 14px; height: 14px; border: 1px solid %quiet; border-radius: 3px; background: %base; }
 QCheckBox::indicator:checked, QTreeView::indicator:checked { background: %accent; border-color: %accent; image: url(:/icons/%tick.svg); }

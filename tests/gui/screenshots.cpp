@@ -5,6 +5,7 @@
 #include <QDir>
 #include <QDockWidget>
 #include <QElapsedTimer>
+#include <QLineEdit>
 #include <QSettings>
 #include <QStandardPaths>
 #include <QTabWidget>
@@ -15,6 +16,7 @@
 #include "app/gui/language.hpp"
 #include "app/gui/new_survey_dialog.hpp"
 #include "app/gui/report_view.hpp"
+#include "app/gui/settings_dialog.hpp"
 #include "app/gui/terrain_view.hpp"
 #include "app/gui/theme.hpp"
 
@@ -139,6 +141,17 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
             QTest::qWait(50);
         }
     }
+    session.changeSetting("fusion.gnss.sigma_fixed_m", "0.05");
+    session.changeSetting("surface.method", "kriging");
+    camera.shoot("steps_changed");
+    window.findChild<QAction*>("settings")->trigger();
+    auto* settings = window.findChild<SettingsDialog*>();
+    camera.shoot("dialog_settings", settings);
+    settings->showStep(StepKind::Surface);
+    camera.shoot("dialog_settings_surface", settings);
+    settings->findChild<QLineEdit*>("setting_search")->setText("sigma gnss");
+    camera.shoot("dialog_settings_search", settings);
+    settings->close();
     // What a person did not save must not come back in the next picture.
     session.undoStack().setIndex(0);
     QTest::qWait(1000);

@@ -39,7 +39,10 @@
 #include "app/gui/report_view.hpp"
 #include "app/gui/report_words.hpp"
 #include "app/gui/setting_editor.hpp"
+#include "app/gui/setting_words.hpp"
+#include "app/gui/settings_dialog.hpp"
 #include "app/gui/start_page.hpp"
+#include "app/gui/steps_panel.hpp"
 #include "app/gui/survey_tree_model.hpp"
 #include "app/gui/terrain_view.hpp"
 #include "app/gui/theme.hpp"
@@ -84,6 +87,8 @@ class WindowTest : public QObject {
     void reportIsShownSavedAndPrinted();
     void settingsAreCheckedAndUndone();
     void sizeOfCellsIsAutoUntilOneIsEntered();
+    void allSettingsAreSearchedMarkedAndSetBack();
+    void fieldsOfTheStepsStandInOneColumn();
     void cancelStopsSoonAndKeepsWhatWasThere();
     void windowAnswersWhileItWorks();
     void unsavedChangesComeBackAfterTheProcessWasKilled();
@@ -367,6 +372,93 @@ void WindowTest::sizeOfCellsIsAutoUntilOneIsEntered() {
     enter("");
     QCOMPARE(session().settings().config().surface.cell_m, 0.0);
     QCOMPARE(field->text(), QString());
+}
+
+void WindowTest::allSettingsAreSearchedMarkedAndSetBack() {
+    openSample();
+    action("settings").trigger();
+    auto* dialog = window_->findChild<SettingsDialog*>();
+    QVERIFY(dialog != nullptr);
+    const auto shown = [&] {
+        QStringList keys;
+        for (const SettingEditor* editor : dialog->findChildren<SettingEditor*>())
+            if (editor->isVisibleTo(dialog)) keys << editor->key();
+        return keys;
+    };
+    // Every setting but edits stands there once.
+    QStringList all = shown();
+    for (const ParameterInfo& info : knownParameters()) {
+        const QString key = QString::fromStdString(info.key);
+        QCOMPARE(all.count(key), key.startsWith("edits.") ? 0 : 1);
+    }
+    auto* search = dialog->findChild<QLineEdit*>("setting_search");
+    QTest::keyClicks(search, "gust");
+    QCOMPARE(shown(), (QStringList{"fusion.barometer.gust_sigma_m", "fusion.barometer.gust_correlation_s"}));
+    search->setText("STILL target");  // by meaning, in any order
+    QCOMPARE(shown(), QStringList{"fusion.stands.target_s"});
+    search->setText("surface.cell");  // by key
+    QCOMPARE(shown(), QStringList{"surface.cell_m"});
+    search->setText(QString::fromUtf8("阵风 长度"));  // in the other language
+    QCOMPARE(shown(), QStringList{"fusion.barometer.gust_correlation_s"});
+    search->setText("no such thing");
+    QVERIFY(shown().isEmpty());
+    search->clear();
+    // What differs from its default is marked, in the dialog and in the step, and can be set back.
+    auto* only = dialog->findChild<QCheckBox*>("only_changed");
+    QVERIFY(session().changeSetting("surface.method", "kriging"));
+    QVERIFY(session().changeSetting("fusion.robust.use", "false"));
+    QVERIFY2(only->text().contains("(2)"), qPrintable(only->text()));
+    only->setChecked(true);
+    QCOMPARE(shown(), (QStringList{"fusion.robust.use", "surface.method"}));
+    const auto marked = [&] {
+        const auto names = window_->findChildren<QLabel*>("settingName");
+        return std::count_if(names.begin(), names.end(),
+                             [](const QLabel* name) { return name->property("changed").toBool(); });
+    };
+    QCOMPARE(marked(), 3);  // the method stands in both
+    for (const SettingEditor* editor : dialog->findChildren<SettingEditor*>()) {
+        auto* reset = editor->findChild<QToolButton*>("reset");
+        QCOMPARE(reset->isVisibleTo(dialog), only->isChecked() && shown().contains(editor->key()));
+        if (editor->key() == "surface.method") QTest::mouseClick(reset, Qt::LeftButton);
+    }
+    QCOMPARE(session().settings().text("surface.method"), std::string("linear"));
+    QTest::mouseClick(dialog->findChild<QPushButton*>("reset_all"), Qt::LeftButton);
+    QCOMPARE(session().settings().text("fusion.robust.use"), std::string("true"));
+    QCOMPARE(marked(), 0);
+    action("undo").trigger();
+    QCOMPARE(session().settings().text("fusion.robust.use"), std::string("false"));
+    // A choice has a name to read and stores its word.
+    auto* method = dialog->findChild<QComboBox*>();
+    QCOMPARE(method->currentText(), QString("Terrawalk, all runs"));
+    method->setCurrentIndex(method->findData("ukf"));
+    QCOMPARE(session().settings().text("fusion.method"), std::string("ukf"));
+    for (const ParameterInfo& info : knownParameters()) {
+        const QString range = QString::fromStdString(info.range);
+        if (!range.contains(", ") || range.startsWith("[") || range.startsWith("true")) continue;
+        for (const QString& word : range.split(", ")) QVERIFY2(choiceWords(word) != word, qPrintable(word));
+    }
+}
+
+void WindowTest::fieldsOfTheStepsStandInOneColumn() {
+    for (const char* language : {"en", "zh_CN"}) {
+        applyLanguage(language);
+        desktop_ = std::make_unique<Desktop>();
+        window_ = &desktop_->window();
+        window_->resize(1280, 800);
+        window_->show();
+        openSample();
+        auto* steps = window_->findChild<StepsPanel*>();
+        QSet<int> left_px, right_px;
+        for (const SettingEditor* editor : steps->findChildren<SettingEditor*>()) {
+            const QPoint at = editor->mapTo(steps, QPoint());
+            left_px << at.x();
+            right_px << at.x() + editor->width();
+            for (const QLabel* name : steps->findChildren<QLabel*>("settingName"))
+                QVERIFY(name->sizeHint().width() <= name->width());
+        }
+        QCOMPARE(left_px.size(), 1);
+        QCOMPARE(right_px.size(), 1);
+    }
 }
 
 void WindowTest::cancelStopsSoonAndKeepsWhatWasThere() {
@@ -1000,6 +1092,8 @@ void WindowTest::chineseKnowsSettingsStepsAndSentences() {
     for (const ParameterInfo& info : knownParameters()) {
         const QString label = settingLabel(QString::fromStdString(info.key));
         QVERIFY2(isChinese(label), qPrintable(label));
+        const QString meaning = settingMeaning(QString::fromStdString(info.key));
+        QVERIFY2(isChinese(meaning), qPrintable(meaning));
     }
     const SurveyReport& report = session().products()->report;
     std::vector<std::string> sentences;
