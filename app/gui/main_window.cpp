@@ -37,6 +37,7 @@
 #include "app/gui/profile_plot.hpp"
 #include "app/gui/recent_surveys.hpp"
 #include "app/gui/report_view.hpp"
+#include "app/gui/runs_dialog.hpp"
 #include "app/gui/settings_dialog.hpp"
 #include "app/gui/shortcuts_dialog.hpp"
 #include "app/gui/show_menu.hpp"
@@ -217,6 +218,7 @@ void MainWindow::buildDocks() {
     connect(steps_, &StepsPanel::exportAsked, this, &MainWindow::askForExport);
     connect(steps_, &StepsPanel::commandAsked, this, &MainWindow::copyCommand);
     connect(steps_, &StepsPanel::accuracyAsked, this, [this] { views_->setCurrentWidget(accuracy_); });
+    connect(steps_, &StepsPanel::runsAsked, this, &MainWindow::showRuns);
     connect(steps_, &StepsPanel::settingsAsked, this, &MainWindow::showSettings);
     place_ = new PlacePanel;
     messages_ = new QListView;
@@ -345,6 +347,7 @@ void MainWindow::buildFileMenu() {
               [this] { session_.process(); });
     addAction(menu, "cancel", "stop", tr("&Cancel"), QKeySequence(Qt::CTRL | Qt::Key_Period),
               [this] { session_.cancel(); });
+    addAction(menu, "runs", "history", tr("Earlier &runs…"), QKeySequence("Ctrl+H"), [this] { showRuns(); });
     addAction(menu, "tune", "tune", tr("&Tune on the marks"), {}, [this] { steps_->tune(); });
     menu.addSeparator();
     addAction(menu, "export", "export", tr("&Export…"), QKeySequence("Ctrl+E"), [this] { askForExport(); });
@@ -426,7 +429,7 @@ void MainWindow::fillCompareMenu(QMenu& menu) {
     const auto& runs = session_.history();
     for (std::size_t i = 0; i < runs.size(); ++i) {
         if (i == session_.shownRun()) continue;
-        QAction* action = menu.addAction(tr("The run of %1").arg(runs[i].when.toString("HH:mm:ss")));
+        QAction* action = menu.addAction(tr("The run of %1").arg(timeOfRun(runs[i].when)));
         action->setEnabled(ready);
         connect(action, &QAction::triggered, this, [this, i] { session_.compareWith(i); });
     }
@@ -495,6 +498,7 @@ void MainWindow::enableActions() {
                                                    {"load_settings", open && !busy},
                                                    {"process", open && !busy},
                                                    {"tune", open && !busy},
+                                                   {"runs", !session_.runs().empty()},
                                                    {"cancel", busy},
                                                    {"export", made && !busy},
                                                    {"command", open},
@@ -723,6 +727,12 @@ void MainWindow::showSettings(StepKind step) {
     settings_->raise();
     settings_->activateWindow();
     settings_->showStep(step);
+}
+
+void MainWindow::showRuns() {
+    auto* dialog = new RunsDialog(session_, this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->open();
 }
 
 void MainWindow::showShortcuts() {

@@ -107,6 +107,7 @@ class MainWindow : public QMainWindow {
     void leaveOut(int kind, const QString& id, bool out);
     void treeMenu(const QPoint& at);
     void showProfile(const QPolygonF& line_m);
+    void showRuns();
     void showShortcuts();
     void showSettings(StepKind step);
     void showAbout();

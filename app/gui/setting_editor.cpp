@@ -3,6 +3,8 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QHBoxLayout>
+#include <QJsonArray>
+#include <QJsonDocument>
 #include <QLabel>
 #include <QLineEdit>
 #include <QSignalBlocker>
@@ -251,7 +253,14 @@ QString settingName(const QString& key) {
     return name.left(1).toUpper() + name.mid(1);
 }
 
+QString settingTitle(const QString& key) {
+    if (key.startsWith("edits.")) return settingMeaning(key);
+    return QString::fromUtf8("%1 › %2").arg(settingGroupWords(settingPrefix(key)), settingName(key));
+}
+
 QString settingValueWords(const QString& key, const QString& value) {
+    if (key.startsWith("edits."))
+        return QString::number(QJsonDocument::fromJson(value.toUtf8()).array().size());
     if (value == "true") return SettingEditor::tr("on");
     if (value == "false") return SettingEditor::tr("off");
     if (zeroMeansAuto(key) && value.toDouble() == 0.0) return SettingEditor::tr("auto");

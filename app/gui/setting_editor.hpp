@@ -47,6 +47,8 @@ void markChanged(QLabel& name, bool changed);
 [[nodiscard]] QString settingLabelInEnglish(const QString& key);
 /// The same below a heading that says the group, e.g. "Longest edge".
 [[nodiscard]] QString settingName(const QString& key);
+/// The same with the heading before it, e.g. "GNSS › Sigma fixed".
+[[nodiscard]] QString settingTitle(const QString& key);
 /// A value with its unit, or the name of a choice.
 [[nodiscard]] QString settingValueWords(const QString& key, const QString& value);
 /// The unit that a key ends with, e.g. "m"; empty where there is none.

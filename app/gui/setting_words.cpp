@@ -494,7 +494,7 @@ constexpr std::pair<const char*, const char*> kChoices[] = {
 
 // Headings of settings that share the first parts of their keys, in the order in which they are shown.
 constexpr std::pair<const char*, const char*> kGroups[] = {
-    {"fusion", QT_TRANSLATE_NOOP("SettingGroup", "Method")},
+    {"fusion", QT_TRANSLATE_NOOP("SettingGroup", "Fusion")},
     {"fusion.stands", QT_TRANSLATE_NOOP("SettingGroup", "Stands on marks")},
     {"fusion.unscented", QT_TRANSLATE_NOOP("SettingGroup", "Sigma points")},
     {"fusion.process.noise", QT_TRANSLATE_NOOP("SettingGroup", "Process noise")},

@@ -2813,6 +2813,10 @@
             <source>All se&amp;ttings…</source>
             <translation>所有设置(&amp;T)…</translation>
         </message>
+        <message>
+            <source>Earlier &amp;runs…</source>
+            <translation>历次处理(&amp;R)…</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::MapPanel</name>
@@ -3764,6 +3768,14 @@
             <source>× </source>
             <translation>× </translation>
         </message>
+        <message>
+            <source>The last runs of this survey: their figures, what was set, and the way back</source>
+            <translation>本测量最近的处理：指标、设置，并可返回</translation>
+        </message>
+        <message>
+            <source>Earlier runs (%1)…</source>
+            <translation>历次处理 (%1)…</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::SurveySession</name>
@@ -3846,6 +3858,10 @@
         <message>
             <source>all settings back to their defaults</source>
             <translation>所有设置恢复默认</translation>
+        </message>
+        <message>
+            <source>The settings of the run of %1 are back: process again to see its results.</source>
+            <translation>已恢复 %1 处理的设置：重新处理即可看到其结果。</translation>
         </message>
     </context>
     <context>
@@ -5073,8 +5089,8 @@
     <context>
         <name>SettingGroup</name>
         <message>
-            <source>Method</source>
-            <translation>方法</translation>
+            <source>Fusion</source>
+            <translation>融合</translation>
         </message>
         <message>
             <source>Stands on marks</source>
@@ -5238,6 +5254,147 @@
         <message>
             <source>Only changed (%1)</source>
             <translation>只看已改 (%1)</translation>
+        </message>
+    </context>
+    <context>
+        <name>RunFigure</name>
+        <message>
+            <source>Height RMSE</source>
+            <translation>高程 RMSE</translation>
+        </message>
+        <message>
+            <source>Height, 95 %</source>
+            <translation>高程 95 %</translation>
+        </message>
+        <message>
+            <source>Height bias</source>
+            <translation>高程偏差</translation>
+        </message>
+        <message>
+            <source>Plan RMSE</source>
+            <translation>平面 RMSE</translation>
+        </message>
+        <message>
+            <source>Crossovers</source>
+            <translation>交叉点不符</translation>
+        </message>
+        <message>
+            <source>Median σ</source>
+            <translation>中位 σ</translation>
+        </message>
+        <message>
+            <source>Area</source>
+            <translation>面积</translation>
+        </message>
+        <message>
+            <source>Points</source>
+            <translation>点数</translation>
+        </message>
+        <message>
+            <source>Cell size</source>
+            <translation>格网</translation>
+        </message>
+    </context>
+    <context>
+        <name>terrawalk::gui::FigureTable</name>
+        <message>
+            <source>better</source>
+            <translation>更好</translation>
+        </message>
+        <message>
+            <source>worse</source>
+            <translation>更差</translation>
+        </message>
+        <message>
+            <source>Before</source>
+            <translation>之前</translation>
+        </message>
+        <message>
+            <source>Now</source>
+            <translation>现在</translation>
+        </message>
+        <message>
+            <source>Change</source>
+            <translation>变化</translation>
+        </message>
+        <message>
+            <source>%1 better, %2 worse than the run of %3</source>
+            <translation>%1 优于、%2 劣于 %3 的处理</translation>
+        </message>
+    </context>
+    <context>
+        <name>terrawalk::gui::RunsDialog</name>
+        <message>
+            <source>Earlier runs</source>
+            <translation>历次处理</translation>
+        </message>
+        <message>
+            <source>Compare heights</source>
+            <translation>比较高程</translation>
+        </message>
+        <message>
+            <source>Go back to this run</source>
+            <translation>返回这次处理</translation>
+        </message>
+        <message>
+            <source>Run</source>
+            <translation>处理</translation>
+        </message>
+        <message>
+            <source>Set otherwise than in the run before</source>
+            <translation>与前一次不同的设置</translation>
+        </message>
+        <message>
+            <source>Settings that differ from those of now</source>
+            <translation>与当前不同的设置</translation>
+        </message>
+        <message>
+            <source>Setting</source>
+            <translation>设置</translation>
+        </message>
+        <message>
+            <source>In that run</source>
+            <translation>那次处理</translation>
+        </message>
+        <message>
+            <source>Now</source>
+            <translation>当前</translation>
+        </message>
+        <message>
+            <source>%1, shown</source>
+            <translation>%1（显示中）</translation>
+        </message>
+        <message>
+            <source>%1, by %2</source>
+            <translation>%1，%2</translation>
+        </message>
+        <message>
+            <source>%1: %2</source>
+            <translation>%1：%2</translation>
+        </message>
+        <message>
+            <source>nothing</source>
+            <translation>无</translation>
+        </message>
+        <message>
+            <source>; </source>
+            <translation>；</translation>
+        </message>
+        <message>
+            <source>Its settings are those of now.</source>
+            <translation>其设置与当前相同。</translation>
+        </message>
+        <message>
+            <source>Shows its results and takes its settings over; undo brings yours back</source>
+            <translation>显示其结果并采用其设置；可撤销</translation>
+        </message>
+        <message>
+            <source>Takes its settings over, undo brings yours back; process again to see its results</source>
+            <translation>采用其设置，可撤销；重新处理即可看到结果</translation>
+        </message>
+        <message>
+            <source>How the heights changed since, as a layer; for runs since the survey was opened</source>
+            <translation>以图层显示此后的高程变化；限打开测量以来的处理</translation>
         </message>
     </context>
 </TS>

@@ -6,6 +6,8 @@
 #include <QDockWidget>
 #include <QElapsedTimer>
 #include <QLineEdit>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QSettings>
 #include <QStandardPaths>
 #include <QTabWidget>
@@ -65,6 +67,7 @@ QString suffixOf(Theme theme, QSize size, const QString& language) {
 
 void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size, const QString& suffix) {
     QSettings().clear();
+    QDir(QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation)).removeRecursively();
     QSettings().setValue("theme", theme == Theme::Dark ? "dark" : "light");
     applyTheme(theme);
     Desktop desktop;
@@ -144,6 +147,18 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
     session.changeSetting("fusion.gnss.sigma_fixed_m", "0.05");
     session.changeSetting("surface.method", "kriging");
     camera.shoot("steps_changed");
+    auto* steps = window.findChild<QScrollArea*>("steps_scroll");
+    steps->verticalScrollBar()->setValue(steps->verticalScrollBar()->maximum());
+    camera.shoot("steps_check");
+    session.goBackTo(1);
+    QTest::qWait(50);
+    steps->verticalScrollBar()->setValue(steps->verticalScrollBar()->maximum());
+    camera.shoot("steps_figures");
+    window.findChild<QAction*>("runs")->trigger();
+    if (QWidget* dialog = QApplication::activeModalWidget()) {
+        camera.shoot("dialog_runs", dialog);
+        dialog->close();
+    }
     window.findChild<QAction*>("settings")->trigger();
     auto* settings = window.findChild<SettingsDialog*>();
     camera.shoot("dialog_settings", settings);

@@ -4,6 +4,7 @@
 #include <QClipboard>
 #include <QComboBox>
 #include <QDockWidget>
+#include <QGridLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListView>
@@ -38,6 +39,7 @@
 #include "app/gui/plots_view.hpp"
 #include "app/gui/report_view.hpp"
 #include "app/gui/report_words.hpp"
+#include "app/gui/sample_surveys.hpp"
 #include "app/gui/setting_editor.hpp"
 #include "app/gui/setting_words.hpp"
 #include "app/gui/settings_dialog.hpp"
@@ -100,6 +102,9 @@ class WindowTest : public QObject {
     void badFilesAreErrorsInTheMessagesAndLoseNothing();
     void droppedFolderIsOpened();
     void earlierRunsCanBeGoneBackTo();
+    void earlierRunsOutliveTheProgram();
+    void runsOfReadOnlySurveysAndBrokenListsAreNoHarm();
+    void figuresStandBesideThoseOfTheRunBefore();
     void keysAloneSuffice();
     void droppedLogsAndMarksBecomeASurvey();
     void newSurveyDialogRefusesWhatCannotBe();
@@ -674,6 +679,102 @@ void WindowTest::earlierRunsCanBeGoneBackTo() {
     QVERIFY(session().outdated());
 }
 
+void WindowTest::earlierRunsOutliveTheProgram() {
+    processed();
+    QVERIFY(session().changeSetting("surface.cell_m", "1"));
+    QVERIFY(session().changeSetting("surface.method", "nearest"));
+    processed();
+    QVERIFY(fs::exists((sample_ + "/survey.runs.json").toStdString()));
+    const RunFigures figures = session().runs().front().figures;
+    window_->close();
+    desktop_ = std::make_unique<Desktop>();
+    window_ = &desktop_->window();
+    window_->show();
+    QApplication::setActiveWindow(window_);
+    openSample();
+    QVERIFY(!session().products());
+    QCOMPARE(session().runs().size(), std::size_t{2});
+    QCOMPARE(session().runs().front().figures, figures);
+    // What was not saved came back as well; here the runs are what matters.
+    QCOMPARE(session().settings().config().surface.cell_m, 1.0);
+    QTest::mouseClick(window_->findChild<QPushButton*>("step_history"), Qt::LeftButton);
+    QWidget* dialog = QApplication::activeModalWidget();
+    QVERIFY(dialog != nullptr);
+    auto* runs = dialog->findChild<QTableWidget*>("runs_table");
+    QCOMPARE(runs->rowCount(), 2);
+    QVERIFY(runs->item(0, runs->columnCount() - 1)->text().contains("Nearest point"));
+    QCOMPARE(runs->item(1, 1)->text(), QString::number(figures.at("height_rmse_m"), 'f', 3));
+    runs->selectRow(1);
+    auto* differences = dialog->findChild<QTableWidget*>("differences_table");
+    QCOMPARE(differences->rowCount(), 2);
+    QCOMPARE(differences->item(1, 1)->text(), QString("auto"));
+    QCOMPARE(differences->item(1, 2)->text(), QString("1.0 m"));
+    QVERIFY(!dialog->findChild<QPushButton*>("compare_run")->isEnabled());  // its surface is gone
+    QTest::mouseClick(dialog->findChild<QPushButton*>("primary"), Qt::LeftButton);
+    QCOMPARE(session().settings().config().surface.cell_m, 0.0);
+    QCOMPARE(session().settings().text("surface.method"), std::string("linear"));
+    QVERIFY(messages().contains("process again"));
+    action("undo").trigger();
+    QCOMPARE(session().settings().config().surface.cell_m, 1.0);
+    // The first run of today has that of yesterday to be compared with, and joins the list.
+    processed();
+    QCOMPARE(session().runs().size(), std::size_t{3});
+    QVERIFY(session().history().front().before.has_value());
+    // One whose results are still there shows them.
+    QVERIFY(session().changeSetting("surface.cell_m", "2"));
+    const auto first = session().products();
+    processed();
+    session().goBackToRun(2);
+    QCOMPARE(session().products(), first);
+}
+
+void WindowTest::runsOfReadOnlySurveysAndBrokenListsAreNoHarm() {
+    window_->open(TERRAWALK_SOURCE_DIR "/sample_surveys/quick_plot", true);
+    QTRY_VERIFY_WITH_TIMEOUT(session().products() && idle(), kLong_ms);
+    QVERIFY(!fs::exists(TERRAWALK_SOURCE_DIR "/sample_surveys/quick_plot/survey.runs.json"));
+    QVERIFY(fs::exists(session().runsFile()));
+    QVERIFY(text(session().runsFile())
+                .startsWith(QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation)));
+    QFile broken(sample_ + "/survey.runs.json");
+    QVERIFY(broken.open(QIODevice::WriteOnly));
+    broken.write("{\"format\"");
+    broken.close();
+    openSample();
+    QTRY_COMPARE(text(session().path()), sample_);
+    QVERIFY(messages().contains("survey.runs.json"));
+    QVERIFY(session().runs().empty());
+    QVERIFY(!action("runs").isEnabled());
+}
+
+void WindowTest::figuresStandBesideThoseOfTheRunBefore() {
+    processed();
+    auto* table = window_->findChild<QWidget*>("figure_table");
+    QVERIFY(!table->isVisibleTo(window_));
+    const double before_m = session().runs().back().figures.at("height_rmse_m");
+    QVERIFY(session().changeSetting("surface.method", "nearest"));
+    processed();
+    const double now_m = session().runs().back().figures.at("height_rmse_m");
+    QVERIFY(now_m > before_m);
+    QVERIFY(table->isVisibleTo(window_));
+    auto* grid = qobject_cast<QGridLayout*>(table->layout());
+    const auto cell = [&](int row, int column) {
+        return qobject_cast<QLabel*>(grid->itemAtPosition(row, column)->widget());
+    };
+    QCOMPARE(cell(1, 0)->text(), QString("Height RMSE (m)"));
+    QCOMPARE(cell(1, 1)->text(), QString::number(before_m, 'f', 3));
+    QCOMPARE(cell(1, 2)->text(), QString::number(now_m, 'f', 3));
+    QVERIFY(cell(1, 3)->text().startsWith('+'));
+    QCOMPARE(cell(1, 4)->text(), QString(QChar(0x2717)));
+    QCOMPARE(cell(1, 4)->toolTip(), QString("worse"));
+    // Nothing is cut off, and numbers end in one line.
+    for (int row = 1; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column)
+            QVERIFY(cell(row, column)->width() >= cell(row, column)->sizeHint().width());
+        QCOMPARE(cell(row, 1)->geometry().right(), cell(1, 1)->geometry().right());
+    }
+    QVERIFY(table->width() <= table->parentWidget()->width());
+}
+
 void WindowTest::keysAloneSuffice() {
     openSample();
     QTest::keyClick(window_, Qt::Key_F5);
@@ -939,7 +1040,7 @@ void WindowTest::tuningRefusesWhatItCannotDoAndIsPlotted() {
 
 void WindowTest::dialogsCloseAndReopen() {
     processed();
-    for (const char* name : {"shortcuts", "about", "export", "new"}) {
+    for (const char* name : {"shortcuts", "about", "export", "runs", "new"}) {
         for (int time = 0; time < 2; ++time) {
             action(name).trigger();
             QWidget* dialog = QApplication::activeModalWidget();
