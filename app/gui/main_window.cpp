@@ -199,6 +199,14 @@ void MainWindow::buildDocks() {
         session_.selection().selectItem(first.data(SurveyTreeModel::IdRole).toString());
     };
     connect(tree_, &QTreeView::clicked, this, choose);
+    // A click, or the enter key: passing over a result by arrow keys must not turn the views over.
+    const auto show = [this](const QModelIndex& index) {
+        const QModelIndex first = index.siblingAtColumn(0);
+        if (first.data(SurveyTreeModel::KindRole).toInt() == SurveyTreeModel::ResultItem)
+            showResult(first.data(SurveyTreeModel::IdRole).toString());
+    };
+    connect(tree_, &QTreeView::clicked, this, show);
+    connect(tree_, &QTreeView::activated, this, show);
     // The tree follows what is selected elsewhere, a stretch of a run perhaps: that is no choice of the run.
     connect(tree_->selectionModel(), &QItemSelectionModel::currentChanged, this,
             [this, choose](const QModelIndex& index) {
@@ -288,8 +296,9 @@ void MainWindow::explain() {
         {accuracy_, tr("How far the results lie from the marks: figures, groups of errors, what they say and "
                        "what they cannot say.")},
         {report_, tr("The report as it will be printed; save it as PDF or print it here.")},
-        {tree_, tr("Runs, marks, edits and results. The box shows or hides a thing in all views; the right "
-                   "button leaves a run or a mark out, or takes an edit back.")},
+        {tree_,
+         tr("Runs, marks, edits and results. The box shows or hides a thing in all views; a click on a "
+            "result shows it; the right button leaves a run or a mark out, or takes an edit back.")},
         {place_,
          tr("What is known of the place that was clicked: its height, where the error comes from, the "
             "nearest hits, and what another pass would give.")},
@@ -681,6 +690,23 @@ void MainWindow::excludeSelected() {
     const bool run = std::any_of(survey->runs.begin(), survey->runs.end(),
                                  [&](const Run& r) { return text(r.id) == selection.item(); });
     leaveOut(run ? SurveyTreeModel::RunItem : SurveyTreeModel::MarkItem, selection.item(), true);
+}
+
+void MainWindow::showResult(const QString& id) {
+    const std::pair<const char*, QWidget*> views[] = {
+        {"mesh", terrain_}, {"accuracy", accuracy_}, {"report", report_}};
+    for (const auto& [name, view] : views) {
+        if (id == name) return views_->setCurrentWidget(view);
+    }
+    const std::pair<const char*, RasterLayer> layers[] = {{"dem", RasterLayer::Height},
+                                                          {"uncertainty", RasterLayer::Uncertainty},
+                                                          {"density", RasterLayer::Density},
+                                                          {"source", RasterLayer::Source}};
+    for (const auto& [name, layer] : layers) {
+        if (id != name || !session_.viewState().available(layer)) continue;
+        session_.viewState().setLayer(layer);
+        views_->setCurrentWidget(map_);
+    }
 }
 
 void MainWindow::treeMenu(const QPoint& at) {

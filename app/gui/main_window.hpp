@@ -106,6 +106,8 @@ class MainWindow : public QMainWindow {
     void excludeSelected();
     void leaveOut(int kind, const QString& id, bool out);
     void treeMenu(const QPoint& at);
+    /// The view and layer of a result in the tree.
+    void showResult(const QString& id);
     void showProfile(const QPolygonF& line_m);
     void showRuns();
     void showShortcuts();

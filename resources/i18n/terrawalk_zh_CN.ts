@@ -2817,6 +2817,10 @@
             <source>Earlier &amp;runs…</source>
             <translation>历次处理(&amp;R)…</translation>
         </message>
+        <message>
+            <source>Runs, marks, edits and results. The box shows or hides a thing in all views; a click on a result shows it; the right button leaves a run or a mark out, or takes an edit back.</source>
+            <translation>航次、标志点、编辑和成果。方框控制在所有视图中显示或隐藏；单击成果即显示；右键可剔除航次或标志点，或撤回编辑。</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::MapPanel</name>
@@ -4015,6 +4019,34 @@
         <message>
             <source>Terrace edges</source>
             <translation>梯田边缘</translation>
+        </message>
+        <message>
+            <source>A click shows it</source>
+            <translation>单击即显示</translation>
+        </message>
+        <message>
+            <source>Point density</source>
+            <translation>点密度</translation>
+        </message>
+        <message>
+            <source>Source of heights</source>
+            <translation>高程来源</translation>
+        </message>
+        <message>
+            <source>%1 % measured</source>
+            <translation>%1 % 实测</translation>
+        </message>
+        <message>
+            <source>Accuracy</source>
+            <translation>精度</translation>
+        </message>
+        <message>
+            <source>Report</source>
+            <translation>报告</translation>
+        </message>
+        <message>
+            <source>The box shows or hides them</source>
+            <translation>方框控制显示或隐藏</translation>
         </message>
     </context>
     <context>

@@ -12,6 +12,7 @@
 #include <QStandardPaths>
 #include <QTabWidget>
 #include <QTest>
+#include <QTreeView>
 #include <cstdio>
 
 #include "app/gui/desktop.hpp"
@@ -143,6 +144,10 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
             dialog->close();
             QTest::qWait(50);
         }
+    }
+    if (auto* tree = window.findChild<QTreeView*>("survey_tree")) {
+        tree->scrollToBottom();
+        camera.shoot("tree_results");
     }
     session.changeSetting("fusion.gnss.sigma_fixed_m", "0.05");
     session.changeSetting("surface.method", "kriging");

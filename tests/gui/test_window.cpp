@@ -96,6 +96,7 @@ class WindowTest : public QObject {
     void unsavedChangesComeBackAfterTheProcessWasKilled();
     void changesOfTheLastMomentComeBack();
     void arrowKeysChooseInTheTree();
+    void resultsInTheTreeShowThemselves();
     void savedSettingsReplayedByTheCommandLineGiveTheSameBytes();
     void exportDialogRefusesWhatCannotBe();
     void themeAndLanguageSwitch();
@@ -550,6 +551,40 @@ void WindowTest::arrowKeysChooseInTheTree() {
         if (!item.isEmpty() && item != first) return;
     }
     QFAIL("two items of the tree were to be chosen in turn");
+}
+
+void WindowTest::resultsInTheTreeShowThemselves() {
+    processed();
+    auto* tree = window_->findChild<QTreeView*>("survey_tree");
+    auto* views = window_->findChild<QTabWidget*>("views");
+    const auto row = [&](const char* id) {
+        const auto found = tree->model()->match(tree->model()->index(0, 0), SurveyTreeModel::IdRole, id, 1,
+                                                Qt::MatchExactly | Qt::MatchRecursive);
+        return found.isEmpty() ? QModelIndex() : found.front();
+    };
+    const auto click = [&](const QModelIndex& index) {
+        tree->scrollTo(index);
+        QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, tree->visualRect(index).center());
+    };
+    const std::tuple<const char*, int, RasterLayer> results[] = {{"uncertainty", 0, RasterLayer::Uncertainty},
+                                                                 {"mesh", 1, RasterLayer::Uncertainty},
+                                                                 {"density", 0, RasterLayer::Density},
+                                                                 {"accuracy", 3, RasterLayer::Density},
+                                                                 {"source", 0, RasterLayer::Source},
+                                                                 {"report", 4, RasterLayer::Source},
+                                                                 {"dem", 0, RasterLayer::Height}};
+    for (const auto& [id, view, layer] : results) {
+        QVERIFY2(row(id).isValid(), id);
+        click(row(id));
+        QCOMPARE(views->currentIndex(), view);
+        QCOMPARE(session().viewState().now().layer, layer);
+    }
+    // By keys: arrows only pass over, enter shows.
+    tree->setFocus();
+    tree->setCurrentIndex(row("mesh"));
+    QCOMPARE(views->currentIndex(), 0);
+    QTest::keyClick(tree, Qt::Key_Return);
+    QCOMPARE(views->currentIndex(), 1);
 }
 
 void WindowTest::savedSettingsReplayedByTheCommandLineGiveTheSameBytes() {
