@@ -24,6 +24,12 @@ QTranslator& qtTexts() {
 
 }  // namespace
 
+QString chineseOf(const char* context, const QString& english) {
+    static QTranslator chinese;
+    static const bool loaded = (registerResources(), chinese.load(":/i18n/terrawalk_zh_CN.qm"));
+    return loaded ? chinese.translate(context, english.toUtf8().constData()) : QString();
+}
+
 void applyLanguage(const QString& language) {
     registerResources();
     const QString name = language.startsWith("zh") ? "zh_CN" : "en";

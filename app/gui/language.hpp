@@ -8,6 +8,8 @@ namespace terrawalk::gui {
 
 /// Makes a language, "en" or "zh_CN", that of all texts made from now on. Others: English.
 void applyLanguage(const QString& language);
+/// A text of a context in Chinese, whatever the language of the window; empty where there is none.
+[[nodiscard]] QString chineseOf(const char* context, const QString& english);
 /// What was chosen last, or what the system speaks.
 [[nodiscard]] QString preferredLanguage();
 

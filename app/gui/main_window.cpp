@@ -37,6 +37,8 @@
 #include "app/gui/profile_plot.hpp"
 #include "app/gui/recent_surveys.hpp"
 #include "app/gui/report_view.hpp"
+#include "app/gui/runs_dialog.hpp"
+#include "app/gui/settings_dialog.hpp"
 #include "app/gui/shortcuts_dialog.hpp"
 #include "app/gui/show_menu.hpp"
 #include "app/gui/start_page.hpp"
@@ -199,6 +201,14 @@ void MainWindow::buildDocks() {
         session_.selection().selectItem(first.data(SurveyTreeModel::IdRole).toString());
     };
     connect(tree_, &QTreeView::clicked, this, choose);
+    // A click, or the enter key: passing over a result by arrow keys must not turn the views over.
+    const auto show = [this](const QModelIndex& index) {
+        const QModelIndex first = index.siblingAtColumn(0);
+        if (first.data(SurveyTreeModel::KindRole).toInt() == SurveyTreeModel::ResultItem)
+            showResult(first.data(SurveyTreeModel::IdRole).toString());
+    };
+    connect(tree_, &QTreeView::clicked, this, show);
+    connect(tree_, &QTreeView::activated, this, show);
     // The tree follows what is selected elsewhere, a stretch of a run perhaps: that is no choice of the run.
     connect(tree_->selectionModel(), &QItemSelectionModel::currentChanged, this,
             [this, choose](const QModelIndex& index) {
@@ -218,6 +228,8 @@ void MainWindow::buildDocks() {
     connect(steps_, &StepsPanel::exportAsked, this, &MainWindow::askForExport);
     connect(steps_, &StepsPanel::commandAsked, this, &MainWindow::copyCommand);
     connect(steps_, &StepsPanel::accuracyAsked, this, [this] { views_->setCurrentWidget(accuracy_); });
+    connect(steps_, &StepsPanel::runsAsked, this, &MainWindow::showRuns);
+    connect(steps_, &StepsPanel::settingsAsked, this, &MainWindow::showSettings);
     place_ = new PlacePanel;
     messages_ = new QListView;
     messages_->setObjectName("messages");
@@ -289,8 +301,9 @@ void MainWindow::explain() {
         {accuracy_, tr("How far the results lie from the marks: figures, groups of errors, what they say and "
                        "what they cannot say.")},
         {report_, tr("The report as it will be printed; save it as PDF or print it here.")},
-        {tree_, tr("Runs, marks, edits and results. The box shows or hides a thing in all views; the right "
-                   "button leaves a run or a mark out, or takes an edit back.")},
+        {tree_,
+         tr("Runs, marks, edits and results. The box shows or hides a thing in all views; a click on a "
+            "result shows it; the right button leaves a run or a mark out, or takes an edit back.")},
         {place_,
          tr("What is known of the place that was clicked: its height, where the error comes from, the "
             "nearest hits, and what another pass would give.")},
@@ -348,6 +361,7 @@ void MainWindow::buildFileMenu() {
               [this] { session_.process(); });
     addAction(menu, "cancel", "stop", tr("&Cancel"), QKeySequence(Qt::CTRL | Qt::Key_Period),
               [this] { session_.cancel(); });
+    addAction(menu, "runs", "history", tr("Earlier &runs…"), QKeySequence("Ctrl+H"), [this] { showRuns(); });
     addAction(menu, "tune", "tune", tr("&Tune on the marks"), {}, [this] { steps_->tune(); });
     menu.addSeparator();
     addAction(menu, "export", "export", tr("&Export…"), QKeySequence("Ctrl+E"), [this] { askForExport(); });
@@ -386,6 +400,9 @@ void MainWindow::buildEditMenu() {
     connect(only, &QMenu::aboutToShow, this, [this, only] {
         for (QAction* action : only->actions()) action->setEnabled(!session_.selection().stretches().empty());
     });
+    menu.addSeparator();
+    addAction(menu, "settings", "settings", tr("All se&ttings…"), QKeySequence("Ctrl+,"),
+              [this] { showSettings(StepKind::Fuse); });
     menu.addSeparator();
     menu.addActions(map_->toolActions());
 }
@@ -447,7 +464,7 @@ void MainWindow::fillCompareMenu(QMenu& menu) {
     const auto& runs = session_.history();
     for (std::size_t i = 0; i < runs.size(); ++i) {
         if (i == session_.shownRun()) continue;
-        QAction* action = menu.addAction(tr("The run of %1").arg(runs[i].when.toString("HH:mm:ss")));
+        QAction* action = menu.addAction(tr("The run of %1").arg(timeOfRun(runs[i].when)));
         action->setEnabled(ready);
         connect(action, &QAction::triggered, this, [this, i] { session_.compareWith(i); });
     }
@@ -516,6 +533,7 @@ void MainWindow::enableActions() {
                                                    {"load_settings", open && !busy},
                                                    {"process", open && !busy},
                                                    {"tune", open && !busy},
+                                                   {"runs", !session_.runs().empty()},
                                                    {"cancel", busy},
                                                    {"export", made && !busy},
                                                    {"command", open},
@@ -712,6 +730,23 @@ void MainWindow::excludeSelected() {
     leaveOut(run ? SurveyTreeModel::RunItem : SurveyTreeModel::MarkItem, selection.item(), true);
 }
 
+void MainWindow::showResult(const QString& id) {
+    const std::pair<const char*, QWidget*> views[] = {
+        {"mesh", terrain_}, {"accuracy", accuracy_}, {"report", report_}};
+    for (const auto& [name, view] : views) {
+        if (id == name) return views_->setCurrentWidget(view);
+    }
+    const std::pair<const char*, RasterLayer> layers[] = {{"dem", RasterLayer::Height},
+                                                          {"uncertainty", RasterLayer::Uncertainty},
+                                                          {"density", RasterLayer::Density},
+                                                          {"source", RasterLayer::Source}};
+    for (const auto& [name, layer] : layers) {
+        if (id != name || !session_.viewState().available(layer)) continue;
+        session_.viewState().setLayer(layer);
+        views_->setCurrentWidget(map_);
+    }
+}
+
 void MainWindow::treeMenu(const QPoint& at) {
     const QModelIndex index = tree_->indexAt(at).siblingAtColumn(0);
     if (!index.isValid()) return;
@@ -748,6 +783,20 @@ void MainWindow::showProfile(const QPolygonF& line_m) {
     if (!profile_dock_->isVisible()) messages_height_px_ = message_dock_->height();
     profile_dock_->show();
     profile_dock_->raise();
+}
+
+void MainWindow::showSettings(StepKind step) {
+    if (settings_ == nullptr) settings_ = new SettingsDialog(session_, this);
+    settings_->show();
+    settings_->raise();
+    settings_->activateWindow();
+    settings_->showStep(step);
+}
+
+void MainWindow::showRuns() {
+    auto* dialog = new RunsDialog(session_, this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->open();
 }
 
 void MainWindow::showShortcuts() {

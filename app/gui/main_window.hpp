@@ -8,6 +8,7 @@
 #include "app/gui/figures.hpp"
 #include "app/gui/map_view.hpp"
 #include "app/gui/message_model.hpp"
+#include "app/gui/steps.hpp"
 #include "app/gui/survey_session.hpp"
 #include "app/gui/survey_tree_model.hpp"
 #include "app/gui/theme.hpp"
@@ -29,6 +30,7 @@ class PlotCanvas;
 class PlotsView;
 class TerrainView;
 class ReportView;
+class SettingsDialog;
 class StartPage;
 class StepsPanel;
 
@@ -107,8 +109,12 @@ class MainWindow : public QMainWindow {
     void excludeSelected();
     void leaveOut(int kind, const QString& id, bool out);
     void treeMenu(const QPoint& at);
+    /// The view and layer of a result in the tree.
+    void showResult(const QString& id);
     void showProfile(const QPolygonF& line_m);
+    void showRuns();
     void showShortcuts();
+    void showSettings(StepKind step);
     void showAbout();
     void themeIcons();
     void say(MessageKind kind, const QString& text);
@@ -130,6 +136,7 @@ class MainWindow : public QMainWindow {
     ReportView* report_ = nullptr;
     PlacePanel* place_ = nullptr;
     StepsPanel* steps_ = nullptr;
+    SettingsDialog* settings_ = nullptr;  ///< made when it is first asked for
     QTreeView* tree_ = nullptr;
     QListView* messages_ = nullptr;
     QLabel* readout_ = nullptr;

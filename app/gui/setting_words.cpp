@@ -1,6 +1,11 @@
 #include "app/gui/setting_words.hpp"
 
 #include <QCoreApplication>
+#include <utility>
+
+#include "app/gui/language.hpp"
+#include "app/gui/run_settings.hpp"
+#include "app/gui/setting_editor.hpp"
 
 namespace terrawalk::gui {
 
@@ -170,9 +175,9 @@ namespace {
     QT_TRANSLATE_NOOP("Setting", "lasting hard iron run sigma"),
     QT_TRANSLATE_NOOP("Setting", "lasting flow scale sigma"),
     QT_TRANSLATE_NOOP("Setting", "lasting flow axes sigma"),
-    QT_TRANSLATE_NOOP("Setting", "lasting gyro bias sigma dps"),
+    QT_TRANSLATE_NOOP("Setting", "lasting gyro bias sigma"),
     QT_TRANSLATE_NOOP("Setting", "lasting gyro scale sigma"),
-    QT_TRANSLATE_NOOP("Setting", "lasting gyro walk deg per sqrt"),
+    QT_TRANSLATE_NOOP("Setting", "lasting gyro walk"),
     QT_TRANSLATE_NOOP("Setting", "lasting acceleration bias sigma"),
     QT_TRANSLATE_NOOP("Setting", "lasting acceleration bias correlation"),
     QT_TRANSLATE_NOOP("Setting", "lasting tilt correlation"),
@@ -200,26 +205,374 @@ namespace {
     QT_TRANSLATE_NOOP("Setting", "joint pair sigma"),
     QT_TRANSLATE_NOOP("Setting", "joint pair even slope"),
     QT_TRANSLATE_NOOP("Setting", "joint pair uneven"),
-    QT_TRANSLATE_NOOP("Setting", "joint pair apart per"),
+    QT_TRANSLATE_NOOP("Setting", "joint pair apart"),
     QT_TRANSLATE_NOOP("Setting", "joint pair plan share"),
     QT_TRANSLATE_NOOP("Setting", "joint pair weight"),
     QT_TRANSLATE_NOOP("Setting", "joint left out crossovers"),
-    QT_TRANSLATE_NOOP("Setting", "joint walk mps per sqrt"),
+    QT_TRANSLATE_NOOP("Setting", "joint walk"),
     QT_TRANSLATE_NOOP("Setting", "joint ground roughness"),
-    QT_TRANSLATE_NOOP("Setting", "joint ground climb m per sqrt"),
+    QT_TRANSLATE_NOOP("Setting", "joint ground climb"),
     QT_TRANSLATE_NOOP("Setting", "joint acceleration noise"),
     QT_TRANSLATE_NOOP("Setting", "joint acceleration knot"),
-    QT_TRANSLATE_NOOP("Setting", "joint blind climb m per sqrt"),
+    QT_TRANSLATE_NOOP("Setting", "joint blind climb"),
     QT_TRANSLATE_NOOP("Setting", "stretches"),
     QT_TRANSLATE_NOOP("Setting", "runs"),
     QT_TRANSLATE_NOOP("Setting", "marks"),
     QT_TRANSLATE_NOOP("Setting", "lines"),
 };
 
+// Likewise: what they mean, as the core describes them.
+[[maybe_unused]] constexpr const char* kMeanings[] = {
+    QT_TRANSLATE_NOOP("SettingMeaning",
+                      "raw: sensors as they are; ukf: 9-state unscented Kalman filter with gate and "
+                      "smoother; aukf: the method of paper 000 as it is; terrawalk: filter with error "
+                      "states, then one adjustment of all runs with their crossovers"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "Rauch-Tung-Striebel pass after the filter"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "still seconds at a start mark"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "still seconds at a target mark"),
+    QT_TRANSLATE_NOOP("SettingMeaning",
+                      "targets of fixed-point runs hold the estimator; false: they only show its error"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "spread of the sigma points; used by the yaw row only"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "weight of the centre point, 2 for a Gaussian"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "secondary spread of the sigma points"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "process noise of the position, east, m2/s"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "process noise of the position, north, m2/s"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "process noise of the position, up, m2/s"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "process noise of the velocity, east, m2/s3"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "process noise of the velocity, north, m2/s3"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "process noise of the velocity, up, m2/s3"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "process noise of the acceleration, east, m2/s5"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "process noise of the acceleration, north, m2/s5"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "process noise of the acceleration, up, m2/s5"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "in which an acceleration dies away; 0: never"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "longer gaps are cut into steps of this length"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of the velocity at the start"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of the acceleration at the start"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "by which a position ages while nothing measures it"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "around a known start mark, before the ties to it"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "below this the array counts as standing still"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "use GNSS positions"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "use GNSS (Doppler) velocities"),
+    QT_TRANSLATE_NOOP("SettingMeaning",
+                      "when the GNSS height is used; rtk: with an RTK fix, fixed or float, and with any fix "
+                      "while no barometer tells"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "position, single point, per horizontal axis"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "position, DGNSS, per horizontal axis"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "position, RTK float, per horizontal axis"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "position, RTK fixed, per horizontal axis"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "position, single point, height"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "position, DGNSS, height"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "position, RTK float, height"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "position, RTK fixed, height"),
+    QT_TRANSLATE_NOOP("SettingMeaning",
+                      "the receiver's own accuracy counts no less than this share of the sigmas above"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "time in which a position error without RTK fix changes"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "the same with an RTK fix"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "Doppler velocity, per horizontal axis"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "Doppler velocity, up"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "time in which a velocity error changes"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "use the barometer"),
+    QT_TRANSLATE_NOOP("SettingMeaning",
+                      "height per height of the standard atmosphere, from a fit at known marks"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "white noise"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "error by gusts of wind"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "length of a gust"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "after this silence GNSS heights of any fix stand in, unless never"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "drift since the barometer was zeroed, m per root of a minute"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "use the optical flow"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "variance at rest, m2/s2"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "growth of the variance with the square of the speed"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "lasting error of scale, as a share of the speed"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "for how long errors of scale and heading keep their direction"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "flow_quality below this is rejected"),
+    QT_TRANSLATE_NOOP("SettingMeaning",
+                      "reject readings of nothing amid motion, and those far from their neighbours"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "let the recent mean flow stand in for missing readings"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "after this time without a reading"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of the mean that stands in"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "the mean stands in no longer than this after the last flow reading"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "over which the mean is taken"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "use the accelerometer"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of the specific force, steps of the walk included"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "use the course of the walk against the heading (paper, eq 4)"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of heading less course"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "slower than this the course is not used"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "yaw of the array less course, counter-clockwise"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "roll and pitch"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "heading"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "by which the compass may come behind in turns"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "roll and pitch while the last known ones stand in"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "heading while the last known one stands in"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "for how long a held heading rotates the flow"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "roll and pitch where none was ever given"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "how well the array stands over a mark, per horizontal axis"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "height of the array above a mark"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of both"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "a range that far from the median of the stand is left out"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "shorter ranges on a mark are not believed"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "longer ranges on a mark are not believed"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of the array above a mark where no range was measured"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of that height"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "down-weight and reject outliers"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "from here on the weight falls"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "beyond this a reading is rejected"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "a silence this long ends a spell of rejections"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "a sensor rejected for so long is believed again"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "a larger sigma ends the run with an error"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "a track farther from GNSS ends the run with an error"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "after this time"),
+    QT_TRANSLATE_NOOP("SettingMeaning",
+                      "a larger share of rejected GNSS positions ends the run with an error"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "rejected GNSS positions before their share counts"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "over which the share is taken"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "which filter method aukf runs on the model of paper 000"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "variance that a step adds to the position, east, m2"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "variance that a step adds to the position, north, m2"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "variance that a step adds to the position, up, m2"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "variance that a step adds to the velocity, east, m2/s2"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "variance that a step adds to the velocity, north, m2/s2"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "variance that a step adds to the velocity, up, m2/s2"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "variance that a step adds to the acceleration, east, m2/s4"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "variance that a step adds to the acceleration, north, m2/s4"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "variance that a step adds to the acceleration, up, m2/s4"),
+    QT_TRANSLATE_NOOP("SettingMeaning",
+                      "step to which the noise belongs; a step of another length adds its share of it"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "spread of the sigma points"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "heading as a measurement of the course"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of the heading as a course"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "below this speed the row is left out"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "yaw of the array less course of the walk, counter-clockwise"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "filter adaptive-ukf: b, the noise remembers 1 / (1 - b) readings"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "filter adaptive-ukf: least noise variance over the sensor's own"),
+    QT_TRANSLATE_NOOP("SettingMeaning",
+                      "filter adaptive-ukf: greatest; a reading that asks for more is left out"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of the range finder at short range"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of the range finder beyond, as a share of the range"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "up to here a range counts as short"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "shorter ranges are a hand or a leaf"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "longer ranges are not believed"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "weaker returns are not believed"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "stronger returns are not believed"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "between the ray and the vertical"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "points of a less sure position are left out"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "points of a less sure height are left out"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "robust sigmas off the neighbours that make a spike; 0: no check"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "path on each side in which neighbours count"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "time on each side in which neighbours count"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "least robust sigma of the neighbours"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "leave out points farther from their neighbours than others are"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "that the distance is taken to"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "above the mean distance that leave a point out"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "leave out points with next to nobody around them"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "in which neighbours are counted, in space"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "that keep a point"),
+    QT_TRANSLATE_NOOP(
+        "SettingMeaning",
+        "leave out what stands on the ground and is narrow: plants, a hand before the range finder"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "windows are 3, 5, 9, ... of these wide"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "what is wider is ground"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of the ground"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of what is left out"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "whatever stands higher is left out, steep ground or not"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "points that near belong to one thing"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "what goes on for so long is a terrace and stays; 0: nothing does"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "one point stands for each cell of this size; 0: all points"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "use the ground points of fixed-point runs as well"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "triangles with a longer edge are left out; 0: from the points"),
+    QT_TRANSLATE_NOOP("SettingMeaning",
+                      "how heights between points are interpolated; auto: the best by cross-validation"),
+    QT_TRANSLATE_NOOP("SettingMeaning",
+                      "whether risers of half a metre and more are found in the points, for methods linear "
+                      "and clough-tocher to follow"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "compare a method that is named with the plain one"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "cell size of the DEM; 0: from the density of the points"),
+    QT_TRANSLATE_NOOP(
+        "SettingMeaning",
+        "write dem_multiband.tif as well: heights and standard errors, bands in the order of BAG"),
+    QT_TRANSLATE_NOOP("SettingMeaning",
+                      "map the space above the ground that the laser crossed (OctoMap) as well"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "side of a voxel"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of a longer ray the first part counts as free, its hit for nothing"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "what lies lower above the DEM counts as ground"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "how far up to look"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "marks farther from any ground point are not compared with one"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of the confidence intervals in the report"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "time in which the lasting error of GNSS positions changes"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "white noise of GNSS positions as a share of the sigma of the fix"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "the same for RTK fixed"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "compass error that wanders"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "time in which it changes"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "compass error A sin yaw + B cos yaw, shared by all runs"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "by which a run differs from that"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "error of scale of the optical flow, constant in a run"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "half the difference of the scales of forward and left"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "bias of the gyro, constant in a run"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "error of scale of the gyro, constant in a run"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "by which a turn summed up from the gyro errs"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "bias of each axis of the accelerometer"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "time in which that of the vertical axis wanders"),
+    QT_TRANSLATE_NOOP("SettingMeaning",
+                      "time in which the error of the tilt wanders, and with it that of the level axes"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "vertical velocity of the array"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "the noise of each sensor follows its innovations"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "in which older innovations fade"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "least factor on the variance of a sensor"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "greatest factor on the variance of a sensor"),
+    QT_TRANSLATE_NOOP(
+        "SettingMeaning",
+        "a quick look: crossovers bend the filter's tracks in a second stage, without the adjustment"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "between the knots of the track's correction"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "between the knots of the compass error"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "between the knots of the GNSS error"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "between the knots of the barometer's drift"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "rounds of the adjustment with crossovers"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "hold passes over the same ground together"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "scale the noise of each sensor by what its residuals say"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "along a pass between the places where others are looked for"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "farthest apart of two passes in plan"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of the ground that is fitted about a crossover"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "passes of one run are at least so far apart in time"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of the weights that fall with the distance from a crossover"),
+    QT_TRANSLATE_NOOP("SettingMeaning",
+                      "holds the slope at a crossover back where the points do not tell it"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of each pass at a crossover"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "misfit of two passes over even ground"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "slope at which ground is half uneven"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "added to the misfit over uneven ground"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "added to that, times the squared distance of the passes"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of the slope that turns errors of the plan into height"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "neighbouring crossovers share points"),
+    QT_TRANSLATE_NOOP("SettingMeaning",
+                      "share of the ground, in cells of 10 m, whose crossovers only test the result"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "random walk of the horizontal velocity"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "of the ground below the walk about its level"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "by which that level wanders"),
+    QT_TRANSLATE_NOOP("SettingMeaning",
+                      "white noise of the accelerometer, which tells how the height bends; 0: it does not"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "between the knots of the accelerometer's bias"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "by which the array climbs where no range was measured"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "readings that are left out"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "runs that are left out"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "marks that are left out: neither control nor check"),
+    QT_TRANSLATE_NOOP("SettingMeaning", "lines that the surface keeps to, beside those of the survey's file"),
+};
+
+// Names of the values that can be chosen from.
+constexpr std::pair<const char*, const char*> kChoices[] = {
+    {"raw", QT_TRANSLATE_NOOP("SettingChoice", "Sensors as they are")},
+    {"ukf", QT_TRANSLATE_NOOP("SettingChoice", "Unscented Kalman (UKF)")},
+    {"aukf", QT_TRANSLATE_NOOP("SettingChoice", "Paper's method (AUKF)")},
+    {"terrawalk", QT_TRANSLATE_NOOP("SettingChoice", "Terrawalk, all runs")},
+    {"never", QT_TRANSLATE_NOOP("SettingChoice", "Never")},
+    {"rtk", QT_TRANSLATE_NOOP("SettingChoice", "With an RTK fix")},
+    {"always", QT_TRANSLATE_NOOP("SettingChoice", "Always")},
+    {"ekf", QT_TRANSLATE_NOOP("SettingChoice", "Extended Kalman (EKF)")},
+    {"ckf", QT_TRANSLATE_NOOP("SettingChoice", "Cubature Kalman (CKF)")},
+    {"square-root-ukf", QT_TRANSLATE_NOOP("SettingChoice", "Square-root UKF")},
+    {"adaptive-ukf", QT_TRANSLATE_NOOP("SettingChoice", "Adaptive UKF")},
+    {"auto", QT_TRANSLATE_NOOP("SettingChoice", "Automatic")},
+    {"off", QT_TRANSLATE_NOOP("SettingChoice", "Off")},
+    {"linear", QT_TRANSLATE_NOOP("SettingChoice", "Linear (TIN)")},
+    {"natural-neighbour", QT_TRANSLATE_NOOP("SettingChoice", "Natural neighbour")},
+    {"sibson-c1", QT_TRANSLATE_NOOP("SettingChoice", "Sibson C1")},
+    {"clough-tocher", QT_TRANSLATE_NOOP("SettingChoice", "Clough-Tocher")},
+    {"inverse-distance", QT_TRANSLATE_NOOP("SettingChoice", "Inverse distance")},
+    {"nearest", QT_TRANSLATE_NOOP("SettingChoice", "Nearest point")},
+    {"kriging", QT_TRANSLATE_NOOP("SettingChoice", "Kriging")},
+    {"b-spline", QT_TRANSLATE_NOOP("SettingChoice", "B-spline")},
+    {"isma", QT_TRANSLATE_NOOP("SettingChoice", "Slime mould, improved")},
+    {"isma-printed", QT_TRANSLATE_NOOP("SettingChoice", "Slime mould, as printed")},
+    {"sma", QT_TRANSLATE_NOOP("SettingChoice", "Slime mould")},
+    {"pso", QT_TRANSLATE_NOOP("SettingChoice", "Particle swarm")},
+    {"ga", QT_TRANSLATE_NOOP("SettingChoice", "Genetic algorithm")},
+    {"sa", QT_TRANSLATE_NOOP("SettingChoice", "Simulated annealing")},
+    {"nsga2", QT_TRANSLATE_NOOP("SettingChoice", "NSGA-II")},
+    {"abc", QT_TRANSLATE_NOOP("SettingChoice", "Bee colony")},
+    {"sade", QT_TRANSLATE_NOOP("SettingChoice", "Differential evolution")},
+    {"cmaes", QT_TRANSLATE_NOOP("SettingChoice", "CMA-ES")},
+};
+
+// Headings of settings that share the first parts of their keys, in the order in which they are shown.
+constexpr std::pair<const char*, const char*> kGroups[] = {
+    {"fusion", QT_TRANSLATE_NOOP("SettingGroup", "Fusion")},
+    {"fusion.stands", QT_TRANSLATE_NOOP("SettingGroup", "Stands on marks")},
+    {"fusion.unscented", QT_TRANSLATE_NOOP("SettingGroup", "Sigma points")},
+    {"fusion.process.noise", QT_TRANSLATE_NOOP("SettingGroup", "Process noise")},
+    {"fusion.process", QT_TRANSLATE_NOOP("SettingGroup", "Process model")},
+    {"fusion.initial", QT_TRANSLATE_NOOP("SettingGroup", "Start of a run")},
+    {"fusion.gnss", QT_TRANSLATE_NOOP("SettingGroup", "GNSS")},
+    {"fusion.barometer", QT_TRANSLATE_NOOP("SettingGroup", "Barometer")},
+    {"fusion.flow", QT_TRANSLATE_NOOP("SettingGroup", "Optical flow")},
+    {"fusion.accelerometer", QT_TRANSLATE_NOOP("SettingGroup", "Accelerometer")},
+    {"fusion.yaw_row", QT_TRANSLATE_NOOP("SettingGroup", "Course against heading")},
+    {"fusion.attitude", QT_TRANSLATE_NOOP("SettingGroup", "Attitude")},
+    {"fusion.ties", QT_TRANSLATE_NOOP("SettingGroup", "Ties to marks")},
+    {"fusion.robust", QT_TRANSLATE_NOOP("SettingGroup", "Outliers")},
+    {"fusion.divergence", QT_TRANSLATE_NOOP("SettingGroup", "Divergence")},
+    {"fusion.lasting", QT_TRANSLATE_NOOP("SettingGroup", "Lasting errors")},
+    {"fusion.drift", QT_TRANSLATE_NOOP("SettingGroup", "Vertical drift")},
+    {"fusion.joint", QT_TRANSLATE_NOOP("SettingGroup", "Adjustment of all runs")},
+    {"fusion.joint.crossovers", QT_TRANSLATE_NOOP("SettingGroup", "Crossovers")},
+    {"fusion.aukf", QT_TRANSLATE_NOOP("SettingGroup", "AUKF")},
+    {"fusion.aukf.noise", QT_TRANSLATE_NOOP("SettingGroup", "AUKF: process noise")},
+    {"fusion.aukf.unscented", QT_TRANSLATE_NOOP("SettingGroup", "AUKF: sigma points")},
+    {"fusion.aukf.yaw_row", QT_TRANSLATE_NOOP("SettingGroup", "AUKF: course")},
+    {"fusion.aukf.adaptive", QT_TRANSLATE_NOOP("SettingGroup", "AUKF: adaptive noise")},
+    {"ground", QT_TRANSLATE_NOOP("SettingGroup", "Ground points")},
+    {"surface.clean.statistical", QT_TRANSLATE_NOOP("SettingGroup", "Statistical outliers")},
+    {"surface.clean.radius", QT_TRANSLATE_NOOP("SettingGroup", "Lonely points")},
+    {"surface.clean.above_ground", QT_TRANSLATE_NOOP("SettingGroup", "Things above the ground")},
+    {"surface", QT_TRANSLATE_NOOP("SettingGroup", "Interpolation and grid")},
+    {"surface.occupancy", QT_TRANSLATE_NOOP("SettingGroup", "Space above the ground")},
+    {"report", QT_TRANSLATE_NOOP("SettingGroup", "Report")},
+};
+
 }  // namespace
 
 QString settingWords(const QString& english) {
     return QCoreApplication::translate("Setting", english.toUtf8().constData());
+}
+
+QString settingMeaning(const QString& key) {
+    return QCoreApplication::translate("SettingMeaning", parameterInfo(key.toStdString()).meaning.c_str());
+}
+
+QString choiceWords(const QString& value) {
+    for (const auto& [name, words] : kChoices) {
+        if (value == name) return QCoreApplication::translate("SettingChoice", words);
+    }
+    return value;
+}
+
+QStringList settingPrefixes() {
+    QStringList prefixes;
+    for (const auto& [prefix, words] : kGroups) prefixes << prefix;
+    return prefixes;
+}
+
+QString settingPrefix(const QString& key) {
+    const qsizetype dot = key.lastIndexOf('.');
+    // The seed stands alone: it is the report's.
+    return dot < 0 ? "report" : key.left(dot);
+}
+
+QString settingGroupWords(const QString& prefix) {
+    for (const auto& [name, words] : kGroups) {
+        if (prefix == name) return QCoreApplication::translate("SettingGroup", words);
+    }
+    return prefix;
+}
+
+QString settingSearchText(const QString& key) {
+    const QString label = settingLabelInEnglish(key), prefix = settingPrefix(key);
+    QStringList all{key, QString(key).replace('_', ' ').replace('.', ' '), label,
+                    chineseOf("Setting", label)};
+    const char* meaning = parameterInfo(key.toStdString()).meaning.c_str();
+    all << meaning << chineseOf("SettingMeaning", meaning);
+    for (const auto& [name, words] : kGroups) {
+        if (prefix == name) all << words << chineseOf("SettingGroup", words);
+    }
+    return all.join('\n').toLower();
 }
 
 }  // namespace terrawalk::gui

@@ -9,6 +9,7 @@
 #include <QVBoxLayout>
 
 #include "app/gui/recent_surveys.hpp"
+#include "app/gui/sample_surveys.hpp"
 #include "app/gui/theme.hpp"
 
 namespace terrawalk::gui {
@@ -38,21 +39,6 @@ QPushButton* link(const QString& title, const QString& path) {
 }
 
 }  // namespace
-
-std::vector<SampleSurvey> sampleSurveys() {
-    const QDir beside(QCoreApplication::applicationDirPath() + "/../share/terrawalk/sample_surveys");
-    const QDir folder = beside.exists() ? beside : QDir(TERRAWALK_SAMPLE_SURVEYS);
-    const std::pair<const char*, QString> known[] = {
-        {"quick_plot", StartPage::tr("Quick plot: a small one, done in a second")},
-        {"mango_orchard", StartPage::tr("Mango orchard: terraces, plants, poor GNSS")}};
-    std::vector<SampleSurvey> found;
-    for (const auto& [name, title] : known) {
-        if (folder.exists(QString(name) + "/survey.json")) {
-            found.push_back({title, folder.filePath(name).toStdString()});
-        }
-    }
-    return found;
-}
 
 StartPage::StartPage(QWidget* parent) : QWidget(parent) {
     auto* column = new QVBoxLayout;

@@ -1,19 +1,10 @@
 #pragma once
 
 #include <QWidget>
-#include <filesystem>
-#include <vector>
 
 class QVBoxLayout;
 
 namespace terrawalk::gui {
-
-/// Surveys that ship with the program, where they are found.
-struct SampleSurvey {
-    QString title;
-    std::filesystem::path path;
-};
-[[nodiscard]] std::vector<SampleSurvey> sampleSurveys();
 
 /// What the window shows before a survey is open.
 class StartPage : public QWidget {

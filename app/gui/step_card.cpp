@@ -5,35 +5,13 @@
 #include <QLabel>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "app/gui/setting_editor.hpp"
+#include "app/gui/survey_session.hpp"
 #include "app/gui/theme.hpp"
 
 namespace terrawalk::gui {
-
-namespace {
-
-QFormLayout* settingsForm() {
-    auto* form = new QFormLayout;
-    form->setContentsMargins(0, 0, 0, 0);
-    form->setHorizontalSpacing(kGrid_px);
-    form->setVerticalSpacing(kGrid_px / 2);
-    form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-    form->setLabelAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-    return form;
-}
-
-void addSetting(QFormLayout& form, SurveySession& session, const QString& key, const QString& label,
-                bool wrapped) {
-    auto* editor = new SettingEditor(session, key);
-    auto* name = new QLabel(label);
-    name->setToolTip(editor->toolTip());
-    name->setBuddy(editor);
-    name->setWordWrap(wrapped);
-    form.addRow(name, editor);
-}
-
-}  // namespace
 
 StepCard::StepCard(SurveySession& session, const Step& step, QWidget* parent)
     : QFrame(parent), session_(session), further_keys_(furtherSettings(step)), icon_name_(step.icon) {
@@ -53,27 +31,64 @@ StepCard::StepCard(SurveySession& session, const Step& step, QWidget* parent)
     state_ = new QLabel;
     head->addWidget(state_);
     body_->addLayout(head);
-    if (!step.important.empty()) {
-        auto* form = settingsForm();
-        for (const auto& [key, label] : step.important) addSetting(*form, session, key, label, false);
-        body_->addLayout(form);
+    if (!step.important.empty()) addImportant(step);
+    if (!further_keys_.isEmpty()) {
+        further_ = new QToolButton;
+        further_->setObjectName("further");
+        connect(further_, &QToolButton::clicked, this, &StepCard::furtherAsked);
+        body_->addWidget(further_);
     }
+    connect(&session_, &SurveySession::settingsChanged, this, &StepCard::showChanged);
     themeChanged();
-    if (further_keys_.isEmpty()) return;
-    fold_ = new QToolButton;
-    fold_->setObjectName("fold");
-    fold_->setCheckable(true);
-    fold_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-    fold_->setIconSize({12, 12});
-    fold_->setText(tr("%n more setting(s)", nullptr, static_cast<int>(further_keys_.size())));
-    connect(fold_, &QToolButton::toggled, this, &StepCard::setUnfolded);
-    body_->addWidget(fold_);
-    themeChanged();
+    showChanged();
+}
+
+void StepCard::addImportant(const Step& step) {
+    auto* form = new QFormLayout;
+    form->setContentsMargins(0, 0, 0, 0);
+    form->setHorizontalSpacing(kGrid_px);
+    form->setVerticalSpacing(kGrid_px / 2);
+    form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+    form->setLabelAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+    for (const auto& [key, label] : step.important) {
+        auto* editor = new SettingEditor(session_, key);
+        auto* name = new QLabel(label);
+        name->setObjectName("settingName");
+        name->setToolTip(editor->toolTip());
+        name->setBuddy(editor);
+        form->addRow(name, editor);
+        names_[key] = name;
+    }
+    body_->addLayout(form);
+}
+
+int StepCard::namesWidth_px() const {
+    int width_px = 0;
+    for (const auto& [key, name] : names_) {
+        QFont bold = name->font();
+        bold.setBold(true);
+        width_px = std::max(width_px, QFontMetrics(bold).horizontalAdvance(name->text()) + 2);
+    }
+    return width_px;
+}
+
+void StepCard::setNamesWidth(int width_px) {
+    for (const auto& [key, name] : names_) name->setFixedWidth(width_px);
+}
+
+void StepCard::showChanged() {
+    const RunSettings& settings = session_.settings();
+    for (const auto& [key, name] : names_) markChanged(*name, settings.changed(key.toStdString()));
+    if (further_ == nullptr) return;
+    const auto changed = std::count_if(further_keys_.begin(), further_keys_.end(), [&](const QString& key) {
+        return settings.changed(key.toStdString());
+    });
+    const QString all = tr("%n more setting(s)…", nullptr, static_cast<int>(further_keys_.size()));
+    further_->setText(changed == 0 ? all : tr("%1 %2 changed").arg(all).arg(changed));
 }
 
 void StepCard::themeChanged() {
     picture_->setPixmap(icon(icon_name_, accentColour()).pixmap(16, 16));
-    if (fold_ != nullptr) fold_->setIcon(icon(fold_->isChecked() ? "opened" : "closed", quietColour()));
 }
 
 void StepCard::setState(const QString& state, const QColor& colour) {
@@ -83,23 +98,6 @@ void StepCard::setState(const QString& state, const QColor& colour) {
 
 void StepCard::addBody(QWidget* widget) {
     body_->addWidget(widget);
-}
-
-void StepCard::setUnfolded(bool unfolded) {
-    if (fold_ == nullptr) return;
-    fold_->setChecked(unfolded);
-    fold_->setIcon(icon(unfolded ? "opened" : "closed", quietColour()));
-    if (unfolded && further_ == nullptr) buildFurther();
-    if (further_ != nullptr) further_->setVisible(unfolded);
-}
-
-void StepCard::buildFurther() {
-    further_ = new QWidget;
-    auto* form = settingsForm();
-    form->setRowWrapPolicy(QFormLayout::WrapAllRows);
-    further_->setLayout(form);
-    for (const QString& key : further_keys_) addSetting(*form, session_, key, settingLabel(key), true);
-    body_->addWidget(further_);
 }
 
 }  // namespace terrawalk::gui

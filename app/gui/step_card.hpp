@@ -2,10 +2,10 @@
 
 #include <QFrame>
 #include <QStringList>
+#include <map>
 
 #include "app/gui/steps.hpp"
 
-class QFormLayout;
 class QLabel;
 class QToolButton;
 class QVBoxLayout;
@@ -14,7 +14,7 @@ namespace terrawalk::gui {
 
 class SurveySession;
 
-/// A step: its name and state, its important settings, and the others folded away.
+/// A step: its name and state, its important settings, and the way to the others.
 class StepCard : public QFrame {
     Q_OBJECT
   public:
@@ -22,19 +22,26 @@ class StepCard : public QFrame {
     void setState(const QString& state, const QColor& colour);
     /// A widget below the settings.
     void addBody(QWidget* widget);
-    void setUnfolded(bool unfolded);
+    /// Which the longest name of an important setting needs.
+    [[nodiscard]] int namesWidth_px() const;
+    /// All cards give their names the same width, so that the fields stand in one column.
+    void setNamesWidth(int width_px);
     void themeChanged();
 
+  Q_SIGNALS:
+    void furtherAsked();
+
   private:
-    void buildFurther();
+    void addImportant(const Step& step);
+    void showChanged();
     SurveySession& session_;
     QStringList further_keys_;
     QVBoxLayout* body_ = nullptr;
     QString icon_name_;
     QLabel* picture_ = nullptr;
     QLabel* state_ = nullptr;
-    QToolButton* fold_ = nullptr;
-    QWidget* further_ = nullptr;  ///< made when it is first unfolded: there may be a hundred settings
+    std::map<QString, QLabel*> names_;  ///< by key
+    QToolButton* further_ = nullptr;
 };
 
 }  // namespace terrawalk::gui

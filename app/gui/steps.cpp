@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "app/gui/run_settings.hpp"
+#include "app/gui/setting_words.hpp"
 
 namespace terrawalk::gui {
 
@@ -39,17 +40,28 @@ std::vector<Step> steps() {
     };
 }
 
+bool belongsTo(const Step& step, const QString& key) {
+    // Cleaning is a step of its own.
+    if (step.kind == StepKind::Surface && key.startsWith("surface.clean.")) return false;
+    return std::any_of(step.prefixes.begin(), step.prefixes.end(),
+                       [&](const QString& prefix) { return key.startsWith(prefix); });
+}
+
+QStringList settingGroups(const Step& step) {
+    QStringList groups;
+    for (const QString& prefix : settingPrefixes()) {
+        if (belongsTo(step, prefix + ".")) groups << prefix;
+    }
+    return groups;
+}
+
 QStringList furtherSettings(const Step& step) {
     QStringList keys;
     for (const ParameterInfo& info : knownParameters()) {
         const QString key = QString::fromStdString(info.key);
-        const bool own = std::any_of(step.prefixes.begin(), step.prefixes.end(),
-                                     [&](const QString& prefix) { return key.startsWith(prefix); });
         const bool shown = std::any_of(step.important.begin(), step.important.end(),
                                        [&](const auto& setting) { return setting.first == key; });
-        // Cleaning is a step of its own.
-        const bool elsewhere = step.kind == StepKind::Surface && key.startsWith("surface.clean.");
-        if (own && !shown && !elsewhere) keys << key;
+        if (belongsTo(step, key) && !shown) keys << key;
     }
     return keys;
 }

@@ -20,6 +20,9 @@ struct Step {
 
 /// In the order of the work.
 [[nodiscard]] std::vector<Step> steps();
+[[nodiscard]] bool belongsTo(const Step& step, const QString& key);
+/// Prefixes of the groups that the settings of a step stand in, as settingPrefix().
+[[nodiscard]] QStringList settingGroups(const Step& step);
 /// Keys of a step that are not important, in the order of `terrawalk config describe`.
 [[nodiscard]] QStringList furtherSettings(const Step& step);
 

@@ -6,12 +6,12 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QScrollArea>
-#include <QSignalBlocker>
 #include <QSpinBox>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/figure_table.hpp"
 #include "app/gui/report_words.hpp"
 #include "app/gui/step_card.hpp"
 #include "app/gui/survey_session.hpp"
@@ -29,12 +29,8 @@ QString text(const std::string& utf8) {
 bool stepChanged(const Step& step, const SurveySession& session) {
     const auto& run = session.history()[session.shownRun()];
     const auto keys = session.settings().differences(run.settings);
-    return std::any_of(keys.begin(), keys.end(), [&](const std::string& key) {
-        return std::any_of(step.prefixes.begin(), step.prefixes.end(), [&](const QString& prefix) {
-            const bool cleaning = text(key).startsWith("surface.clean.");
-            return text(key).startsWith(prefix) && !(step.kind == StepKind::Surface && cleaning);
-        });
-    });
+    return std::any_of(keys.begin(), keys.end(),
+                       [&](const std::string& key) { return belongsTo(step, text(key)); });
 }
 
 }  // namespace
@@ -48,7 +44,12 @@ StepsPanel::StepsPanel(SurveySession& session, QWidget* parent) : QWidget(parent
         auto* card = new StepCard(session, step);
         cards_[step.kind] = card;
         column->addWidget(card);
+        connect(card, &StepCard::furtherAsked, this,
+                [this, kind = step.kind] { Q_EMIT settingsAsked(kind); });
     }
+    int names_px = 0;
+    for (const auto& [kind, card] : cards_) names_px = std::max(names_px, card->namesWidth_px());
+    for (const auto& [kind, card] : cards_) card->setNamesWidth(names_px);
     column->addStretch();
     auto* scroll = new QScrollArea;
     scroll->setWidget(list);
@@ -143,13 +144,11 @@ void StepsPanel::buildCheck(StepCard& card) {
     figure_detail_->setObjectName("quiet");
     figure_detail_->setWordWrap(true);
     card.addBody(figure_detail_);
-    history_ = new QComboBox;
-    history_->setObjectName("history");
-    history_->setAccessibleName(tr("Earlier runs"));
-    history_->setToolTip(tr("Earlier runs: choosing one shows its results and takes its settings"));
-    card.addBody(history_);
-    connect(history_, &QComboBox::activated, this,
-            [this](int row) { session_.goBackTo(static_cast<std::size_t>(row)); });
+    figures_ = new FigureTable;
+    card.addBody(figures_);
+    history_ = addButton(card, "step_history", QString(),
+                         tr("The last runs of this survey: their figures, what was set, and the way back"));
+    connect(history_, &QPushButton::clicked, this, &StepsPanel::runsAsked);
     accuracy_ =
         addButton(card, "step_accuracy", tr("Show the accuracy"), tr("Errors at marks, group by group"));
     connect(accuracy_, &QPushButton::clicked, this, &StepsPanel::accuracyAsked);
@@ -201,16 +200,13 @@ void StepsPanel::showProgress(double fraction, const QString& step, double secon
 }
 
 void StepsPanel::showHistory() {
-    const QSignalBlocker quiet(history_);
-    history_->clear();
-    const auto& runs = session_.history();
-    for (const FinishedRun& run : runs) {
-        const auto& figures = run.products->report.figures;
-        const QString figure = figures.empty() ? QString() : text(figures.front().value);
-        history_->addItem(tr("%1 · %2").arg(run.when.toString("HH:mm:ss"), figure));
-    }
-    if (!runs.empty()) history_->setCurrentIndex(static_cast<int>(session_.shownRun()));
-    history_->setVisible(runs.size() > 1);
+    history_->setText(tr("Earlier runs (%1)…").arg(session_.runs().size()));
+    history_->setVisible(!session_.runs().empty());
+    const auto& history = session_.history();
+    const auto* shown = history.empty() ? nullptr : &history[session_.shownRun()];
+    if (shown == nullptr || !shown->before) return figures_->show({}, {});
+    figures_->show(figureChanges(shown->before->figures, runFigures(shown->products->report)),
+                   timeOfRun(shown->before->when));
 }
 
 void StepsPanel::showState() {

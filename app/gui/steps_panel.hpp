@@ -13,6 +13,7 @@ class QSpinBox;
 
 namespace terrawalk::gui {
 
+class FigureTable;
 class StepCard;
 class SurveySession;
 
@@ -31,6 +32,9 @@ class StepsPanel : public QWidget {
     void exportAsked();
     void commandAsked();
     void accuracyAsked();
+    void runsAsked();
+    /// All settings are to be shown, from those of that step on.
+    void settingsAsked(terrawalk::gui::StepKind step);
 
   private:
     void fillCards();
@@ -51,7 +55,8 @@ class StepsPanel : public QWidget {
     QPushButton* accuracy_ = nullptr;
     QPushButton* process_ = nullptr;
     QPushButton* cancel_ = nullptr;
-    QComboBox* history_ = nullptr;
+    QPushButton* history_ = nullptr;
+    FigureTable* figures_ = nullptr;
     QLabel* figure_ = nullptr;
     QLabel* figure_detail_ = nullptr;
     QLabel* doing_ = nullptr;

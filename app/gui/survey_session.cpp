@@ -12,9 +12,11 @@
 #include "app/gui/accuracy_words.hpp"
 #include "app/gui/figures.hpp"
 #include "app/gui/report_words.hpp"
+#include "app/gui/sample_surveys.hpp"
 #include "app/gui/setting_editor.hpp"
 #include "app/pipeline/jobs.hpp"
 #include "app/pipeline/tune_jobs.hpp"
+#include "app/pipeline/version.hpp"
 
 namespace terrawalk::gui {
 
@@ -66,6 +68,11 @@ QString shellWord(const QString& word) {
     return word.isEmpty() ? QStringLiteral("''") : word;
 }
 
+QString timeOfRun(const QDateTime& when) {
+    const bool today = when.date() == QDate::currentDate();
+    return when.toString(today ? "HH:mm:ss" : "yyyy-MM-dd HH:mm");
+}
+
 SurveySession::SurveySession(QObject* parent) : QObject(parent), job_(this) {
     connect(&job_, &BackgroundJob::told, this, [this](Severity severity, const QString& line) {
         Q_EMIT told(severity == Severity::Warning ? MessageKind::Warning : MessageKind::Info, line);
@@ -107,6 +114,7 @@ void SurveySession::finishOpening(const fs::path& path, Survey survey, SurveyMap
     selection_.clear();
     settings_ = RunSettings();
     readSaved();
+    readRuns();
     Q_EMIT surveyChanged();
     Q_EMIT productsChanged();
     Q_EMIT settingsChanged();
@@ -141,6 +149,13 @@ void SurveySession::finishRun(FinishedRun run) {
     const bool had_one = !history_.empty();
     const QString change =
         had_one ? changeOfFigures(history_[shown_].products->report, run.products->report) : QString();
+    if (had_one) {
+        const FinishedRun& shown = history_[shown_];
+        run.before = RunSummary{shown.when, {}, shown.settings, runFigures(shown.products->report)};
+    } else if (!runs_.empty()) {
+        run.before = runs_.back();
+    }
+    keepRun(run);
     if (history_.size() == kKeptRuns) history_.erase(history_.begin());
     history_.push_back(std::move(run));
     shown_ = history_.size() - 1;
@@ -219,7 +234,7 @@ void SurveySession::openSearches(const fs::path& file) {
 void SurveySession::compareWith(std::size_t run) {
     if (run >= history_.size() || run == shown_) return;
     const FinishedRun& earlier = history_[run];
-    const std::string name = tr("the run of %1").arg(earlier.when.toString("HH:mm:ss")).toStdString();
+    const std::string name = tr("the run of %1").arg(timeOfRun(earlier.when)).toStdString();
     job_.start([this, later = products(), earlier = earlier.products, name](Progress& progress,
                                                                             const std::stop_token& stop) {
         progress.report(0.0, "comparing");
@@ -286,8 +301,14 @@ bool SurveySession::changeSetting(const QString& key, const QString& value) {
         fail(done.error());
         return false;
     }
-    changeSettings(changed, tr("%1 = %2").arg(settingLabel(key), value));
+    changeSettings(changed, tr("%1 = %2").arg(settingLabel(key), settingValueWords(key, value)));
     return true;
+}
+
+void SurveySession::resetSettings() {
+    RunSettings defaults;
+    defaults.setEdits(edits());
+    changeSettings(defaults, tr("all settings back to their defaults"));
 }
 
 void SurveySession::changeEdits(const SurveyEdits& edits, const QString& what) {
@@ -370,9 +391,60 @@ void SurveySession::readSaved() {
     if (const auto trace = readTuneTrace(settingsFile())) addTraces({*trace});
 }
 
+void SurveySession::readRuns() {
+    runs_.clear();
+    const auto read = readRunHistory(runsFile());
+    if (!read) return fail(read.error());
+    for (const PastRun& run : *read) {
+        const QDateTime when = QDateTime::fromString(text(run.finished), Qt::ISODateWithMs);
+        if (when.isValid())
+            runs_.push_back({when.toLocalTime(), text(run.program), RunSettings(run.config), run.figures});
+    }
+}
+
+void SurveySession::keepRun(const FinishedRun& run) {
+    runs_.push_back({run.when, text(programVersion()), run.settings, runFigures(run.products->report)});
+    if (runs_.size() > kPastRuns) runs_.erase(runs_.begin());
+    std::vector<PastRun> kept;
+    for (const RunSummary& one : runs_) {
+        kept.push_back({one.when.toUTC().toString(Qt::ISODateWithMs).toStdString(), one.program.toStdString(),
+                        one.settings.config(), one.figures});
+    }
+    QDir().mkpath(text(runsFile().parent_path().string()));
+    if (const auto written = writeRunHistory(kept, runsFile()); !written)
+        Q_EMIT told(MessageKind::Warning, text(written.error().text()));
+}
+
+fs::path SurveySession::runsFile() const {
+    fs::path beside = survey_->project_file;
+    beside.replace_extension(".runs.json");
+    const bool writable = QFileInfo(text(beside.parent_path().string())).isWritable();
+    return writable && !isSample(survey_->project_file) ? beside : ownFile("runs");
+}
+
+std::optional<std::size_t> SurveySession::resultsOf(std::size_t run) const {
+    for (std::size_t i = 0; i < history_.size(); ++i) {
+        if (history_[i].when == runs_[run].when) return i;
+    }
+    return std::nullopt;
+}
+
+void SurveySession::goBackToRun(std::size_t run) {
+    if (run >= runs_.size()) return;
+    if (const auto results = resultsOf(run)) return goBackTo(*results);
+    changeSettings(runs_[run].settings, tr("go back to an earlier run"));
+    Q_EMIT told(MessageKind::Info,
+                tr("The settings of the run of %1 are back: process again to see its results.")
+                    .arg(timeOfRun(runs_[run].when)));
+}
+
 fs::path SurveySession::autosaveFile() const {
+    return ownFile("autosave");
+}
+
+fs::path SurveySession::ownFile(const QString& kind) const {
     const QString folder =
-        QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + "/autosave";
+        QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + "/" + kind;
     const QString project = QFileInfo(text(survey_->project_file.string())).canonicalFilePath();
     const QByteArray name =
         QCryptographicHash::hash(project.toUtf8(), QCryptographicHash::Sha256).toHex().left(24);

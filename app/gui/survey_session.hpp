@@ -8,6 +8,7 @@
 #include <QUndoStack>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "app/gui/background_job.hpp"
@@ -16,6 +17,7 @@
 #include "app/gui/view_state.hpp"
 #include "app/pipeline/export_job.hpp"
 #include "app/pipeline/process.hpp"
+#include "app/pipeline/run_history.hpp"
 #include "app/pipeline/survey_map.hpp"
 #include "app/pipeline/tune_trace.hpp"
 #include "survey/result.hpp"
@@ -25,6 +27,14 @@ namespace terrawalk::gui {
 
 enum class MessageKind { Info, Done, Warning, Error };
 
+/// What is kept of a finished run beyond the end of the program.
+struct RunSummary {
+    QDateTime when;
+    QString program;  ///< name and version
+    RunSettings settings;
+    RunFigures figures;
+};
+
 /// A finished run of the pipeline, kept so that a person can compare and go back.
 struct FinishedRun {
     QDateTime when;
@@ -32,6 +42,8 @@ struct FinishedRun {
     std::shared_ptr<const Survey> survey;  ///< with the edits made
     std::shared_ptr<const Products> products;
     std::shared_ptr<const SurveyMap> map;
+    std::optional<RunSummary> before =
+        std::nullopt;  ///< what was shown when it was made, or the last run before
 };
 
 /// What is open: a survey, its settings, and the last results. Knows no widgets; all work runs in its job.
@@ -64,6 +76,8 @@ class SurveySession : public QObject {
 
     /// Sets one setting, undoably. Refused values become a message, and the setting stays.
     bool changeSetting(const QString& key, const QString& text);
+    /// All of them back to their defaults, undoably; edits stay.
+    void resetSettings();
     /// @param what  for the undo menu, e.g. "exclude a stretch"
     void changeEdits(const SurveyEdits& edits, const QString& what);
     void changeSettings(const RunSettings& settings, const QString& what);
@@ -105,6 +119,15 @@ class SurveySession : public QObject {
     /// Shows the results of an earlier run, and takes its settings over, undoably.
     void goBackTo(std::size_t run);
 
+    /// The last runs of this survey, the oldest first, those of earlier days among them; kept beside the
+    /// survey where that can be written, and is no sample, and with the program's own data elsewhere.
+    [[nodiscard]] const std::vector<RunSummary>& runs() const { return runs_; }
+    [[nodiscard]] std::filesystem::path runsFile() const;
+    /// Which of the history has the results of one of runs(), if they are still there.
+    [[nodiscard]] std::optional<std::size_t> resultsOf(std::size_t run) const;
+    /// Takes over the settings of one of runs(), undoably, and shows its results where they are still there.
+    void goBackToRun(std::size_t run);
+
     /// Arguments of the command that makes the results that are shown, or would be made now.
     [[nodiscard]] QStringList commandArguments() const;
     /// The same for a shell, with the folder for the output.
@@ -132,9 +155,13 @@ class SurveySession : public QObject {
     void finishOpening(const std::filesystem::path& path, Survey survey, SurveyMap map);
     void finishRun(FinishedRun run);
     void readSaved();
+    void readRuns();
+    void keepRun(const FinishedRun& run);
     void recover();
     void autosave();
     [[nodiscard]] std::filesystem::path autosaveFile() const;
+    /// Of the program's own data on this survey.
+    [[nodiscard]] std::filesystem::path ownFile(const QString& kind) const;
     [[nodiscard]] const RunSettings& shownSettings() const;
 
     BackgroundJob job_;
@@ -149,9 +176,12 @@ class SurveySession : public QObject {
     std::shared_ptr<const SurveyMap> logged_map_;
     std::shared_ptr<const TuningData> tuning_ = std::make_shared<const TuningData>();
     std::vector<FinishedRun> history_;
+    std::vector<RunSummary> runs_;
     std::size_t shown_ = 0;
 };
 
+/// The time of a run: the hour today, the date as well on other days.
+[[nodiscard]] QString timeOfRun(const QDateTime& when);
 /// A word as a shell takes it, in quotes where it must be.
 [[nodiscard]] QString shellWord(const QString& word);
 

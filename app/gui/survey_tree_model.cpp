@@ -194,23 +194,40 @@ void SurveyTreeModel::addEdits(const SurveyEdits& edits) {
 void SurveyTreeModel::addResults(const Products& products, const ViewChoice& shown) {
     const SurveyReport& report = products.report;
     QStandardItem* group = addGroup(tr("Results"), -1);
-    const auto add = [&](QStandardItem* made, const QString& words) {
-        made->setIcon(icon("result"));
+    const auto add = [&](QStandardItem* made, const char* icon_name, const QString& words) {
+        made->setIcon(icon(icon_name));
+        if (made->toolTip().isEmpty()) made->setToolTip(tr("A click shows it"));
         group->appendRow({made, state(words)});
     };
-    add(entry(tr("DEM"), ResultItem, "dem"), QString("%1 × %2, %3 m")
-                                                 .arg(report.surface.columns)
-                                                 .arg(report.surface.rows)
-                                                 .arg(report.surface.cell_m));
+    add(entry(tr("DEM"), ResultItem, "dem"), "map",
+        QString("%1 × %2, %3 m")
+            .arg(report.surface.columns)
+            .arg(report.surface.rows)
+            .arg(report.surface.cell_m));
     if (products.uncertainty && report.surface.uncertainty) {
-        add(entry(tr("Uncertainty"), ResultItem, "uncertainty"),
-            tr("median %1").arg(lengthText(report.surface.uncertainty->median_m)));
+        const UncertaintySummary& sigma = *report.surface.uncertainty;
+        add(entry(tr("Uncertainty"), ResultItem, "uncertainty"), "result",
+            tr("median %1").arg(lengthText(sigma.median_m)));
+        add(entry(tr("Point density"), ResultItem, "density"), "result",
+            tr("%n point(s)", nullptr, static_cast<int>(report.surface.points)));
+        const auto cells = static_cast<double>(sigma.measured + sigma.interpolated + sigma.extrapolated);
+        if (cells > 0.0) {
+            const double share = 100.0 * static_cast<double>(sigma.measured) / cells;
+            add(entry(tr("Source of heights"), ResultItem, "source"), "result",
+                tr("%1 % measured").arg(std::lround(share)));
+        }
     }
-    add(entry(tr("Mesh"), ResultItem, "mesh"), tr("%1 triangles").arg(report.surface.triangles));
+    add(entry(tr("Mesh"), ResultItem, "mesh"), "terrain_3d",
+        tr("%1 triangles").arg(report.surface.triangles));
+    const bool known = !report.figures.empty();
+    add(entry(tr("Accuracy"), ResultItem, "accuracy"), "accuracy",
+        known ? text(report.figures.front().value) : QString());
+    add(entry(tr("Report"), ResultItem, "report"), "report", QString());
     if (products.terrace_edges.empty()) return;
     QStandardItem* edges = entry(tr("Terrace edges"), EdgesItem, "edges");
     check(*edges, shown.edges);
-    add(edges, QString::number(products.terrace_edges.size()));
+    edges->setToolTip(tr("The box shows or hides them"));
+    add(edges, "result", QString::number(products.terrace_edges.size()));
 }
 
 }  // namespace terrawalk::gui

@@ -81,6 +81,8 @@ QDockWidget::title { padding: 8px; background: %window; border-bottom: 1px solid
 QTreeView, QTableView, QScrollArea, QPlainTextEdit { border: 0; background: %base; }
 QTreeView::item { padding: 3px 0; }
 QTreeView::item:selected, QTableView::item:selected { background: %accent; color: %onaccent; }
+QTableView#runs_table, QTableView#differences_table { outline: 0; }
+QTableView#runs_table::item, QTableView#differences_table::item { border: 0; padding: 0 5px; }
 QHeaderView::section { background: %raised; border: 0; border-bottom: 1px solid %line; padding: 4px 8px; font-weight: 600; }
 QTabWidget::pane { border: 0; }
 QTabBar::tab { padding: 8px 16px; border: 0; border-bottom: 2px solid transparent; color: %quiet; }
@@ -103,8 +105,17 @@ QLabel#title { font-size: 22px; font-weight: 600; }
 QLabel#heading { font-size: 15px; font-weight: 600; }
 QLabel#figure { font-size: 19px; font-weight: 600; }
 QLabel#cardTitle { font-weight: 600; }
-QToolButton#fold { border: 0; color: %quiet; padding: 4px 0; }
-QToolButton#fold:hover, QToolButton#fold:focus { color: %accent; }
+QLabel#verdict { color: %accent; font-weight: 600; }
+QLabel#verdict[verdict="-1"] { color: %warning; }
+QLabel#settingName[changed="true"] { color: %accent; font-weight: 600; }
+QToolButton#further { border: 0; color: %quiet; padding: 4px 0; }
+QToolButton#further:hover, QToolButton#further:focus { color: %accent; text-decoration: underline; }
+QToolButton#reset { border: 0; border-radius: 4px; padding: 3px; }
+QToolButton#reset:hover, QToolButton#reset:focus { background: %line; }
+QListWidget#settingGroups { border: 0; border-right: 1px solid %line; background: %window; padding: 8px 0; outline: 0; }
+QListWidget#settingGroups::item { border: 0; padding: 4px 12px; }
+QListWidget#settingGroups::item:selected { background: %accent; color: %onaccent; }
+QWidget#settingRow { border-bottom: 1px solid %line; }
 QCheckBox { spacing: 8px; }
 QCheckBox::indicator, QTreeView::indicator { width: 14px; height: 14px; border: 1px solid %quiet; border-radius: 3px; background: %base; }
 QCheckBox::indicator:checked, QTreeView::indicator:checked { background: %accent; border-color: %accent; image: url(:/icons/%tick.svg); }
@@ -133,9 +144,9 @@ QScrollBar::add-page, QScrollBar::sub-page { background: transparent; }
 QString styleSheet(const Colours& c) {
     QString style = kStyle;
     const std::pair<const char*, QColor> names[] = {
-        {"%window", c.window},      {"%base", c.base},     {"%raised", c.raised},
-        {"%text", c.text},          {"%quiet", c.quiet},   {"%line", c.line},
-        {"%onaccent", c.on_accent}, {"%accent", c.accent}, {"%error", c.error},
+        {"%window", c.window}, {"%base", c.base},       {"%raised", c.raised},      {"%text", c.text},
+        {"%quiet", c.quiet},   {"%line", c.line},       {"%onaccent", c.on_accent}, {"%accent", c.accent},
+        {"%error", c.error},   {"%warning", c.warning},
     };
     style.replace("%tick", current == Theme::Light ? "tick_light" : "tick_dark");
     for (const auto& [name, colour] : names) style.replace(name, colour.name());

@@ -31,10 +31,10 @@
     <context>
         <name>terrawalk::gui::StepCard</name>
         <message numerus="yes">
-            <source>%n more setting(s)</source>
+            <source>%n more setting(s)…</source>
             <translation>
-                <numerusform>%n more setting</numerusform>
-                <numerusform>%n more settings</numerusform>
+                <numerusform>%n more setting…</numerusform>
+                <numerusform>%n more settings…</numerusform>
             </translation>
         </message>
     </context>

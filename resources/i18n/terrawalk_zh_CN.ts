@@ -91,7 +91,7 @@
         </message>
         <message>
             <source>used</source>
-            <translation>采用</translation>
+            <translation>已用</translation>
         </message>
         <message>
             <source>thinned, left out</source>
@@ -1311,6 +1311,45 @@
         </message>
     </context>
     <context>
+        <name>RunFigure</name>
+        <message>
+            <source>Height RMSE</source>
+            <translation>高程 RMSE</translation>
+        </message>
+        <message>
+            <source>Height, 95 %</source>
+            <translation>高程 95 %</translation>
+        </message>
+        <message>
+            <source>Height bias</source>
+            <translation>高程偏差</translation>
+        </message>
+        <message>
+            <source>Plan RMSE</source>
+            <translation>平面 RMSE</translation>
+        </message>
+        <message>
+            <source>Crossovers</source>
+            <translation>交叉点不符</translation>
+        </message>
+        <message>
+            <source>Median σ</source>
+            <translation>中位 σ</translation>
+        </message>
+        <message>
+            <source>Area</source>
+            <translation>面积</translation>
+        </message>
+        <message>
+            <source>Points</source>
+            <translation>点数</translation>
+        </message>
+        <message>
+            <source>Cell size</source>
+            <translation>格网</translation>
+        </message>
+    </context>
+    <context>
         <name>Setting</name>
         <message>
             <source>method</source>
@@ -1961,16 +2000,16 @@
             <translation>持续误差 光流轴向 σ</translation>
         </message>
         <message>
-            <source>lasting gyro bias sigma dps</source>
-            <translation>持续误差 陀螺零偏 σ (°/s)</translation>
+            <source>lasting gyro bias sigma</source>
+            <translation>持续误差 陀螺零偏 σ</translation>
         </message>
         <message>
             <source>lasting gyro scale sigma</source>
             <translation>持续误差 陀螺比例 σ</translation>
         </message>
         <message>
-            <source>lasting gyro walk deg per sqrt</source>
-            <translation>持续误差 陀螺随机游走 (°/√s)</translation>
+            <source>lasting gyro walk</source>
+            <translation>持续误差 陀螺随机游走</translation>
         </message>
         <message>
             <source>lasting acceleration bias sigma</source>
@@ -2081,7 +2120,7 @@
             <translation>点对 不平整度</translation>
         </message>
         <message>
-            <source>joint pair apart per</source>
+            <source>joint pair apart</source>
             <translation>点对 每米距离的误差</translation>
         </message>
         <message>
@@ -2097,16 +2136,16 @@
             <translation>留出的交叉点</translation>
         </message>
         <message>
-            <source>joint walk mps per sqrt</source>
-            <translation>整体平差 行走 (m/s/√s)</translation>
+            <source>joint walk</source>
+            <translation>整体平差 行走</translation>
         </message>
         <message>
             <source>joint ground roughness</source>
             <translation>地面粗糙度</translation>
         </message>
         <message>
-            <source>joint ground climb m per sqrt</source>
-            <translation>地面爬升 (m/√m)</translation>
+            <source>joint ground climb</source>
+            <translation>地面爬升</translation>
         </message>
         <message>
             <source>joint acceleration noise</source>
@@ -2117,8 +2156,8 @@
             <translation>整体平差 加速度节点</translation>
         </message>
         <message>
-            <source>joint blind climb m per sqrt</source>
-            <translation>无高程观测时爬升 (m/√s)</translation>
+            <source>joint blind climb</source>
+            <translation>无高程观测时爬升</translation>
         </message>
         <message>
             <source>stretches</source>
@@ -2135,6 +2174,1087 @@
         <message>
             <source>lines</source>
             <translation>绘制的线</translation>
+        </message>
+    </context>
+    <context>
+        <name>SettingChoice</name>
+        <message>
+            <source>Sensors as they are</source>
+            <translation>直接用传感器</translation>
+        </message>
+        <message>
+            <source>Unscented Kalman (UKF)</source>
+            <translation>无迹卡尔曼 (UKF)</translation>
+        </message>
+        <message>
+            <source>Paper's method (AUKF)</source>
+            <translation>论文方法 (AUKF)</translation>
+        </message>
+        <message>
+            <source>Terrawalk, all runs</source>
+            <translation>Terrawalk 整体平差</translation>
+        </message>
+        <message>
+            <source>Never</source>
+            <translation>从不</translation>
+        </message>
+        <message>
+            <source>With an RTK fix</source>
+            <translation>有 RTK 解时</translation>
+        </message>
+        <message>
+            <source>Always</source>
+            <translation>始终</translation>
+        </message>
+        <message>
+            <source>Extended Kalman (EKF)</source>
+            <translation>扩展卡尔曼 (EKF)</translation>
+        </message>
+        <message>
+            <source>Cubature Kalman (CKF)</source>
+            <translation>容积卡尔曼 (CKF)</translation>
+        </message>
+        <message>
+            <source>Square-root UKF</source>
+            <translation>平方根 UKF</translation>
+        </message>
+        <message>
+            <source>Adaptive UKF</source>
+            <translation>自适应 UKF</translation>
+        </message>
+        <message>
+            <source>Automatic</source>
+            <translation>自动</translation>
+        </message>
+        <message>
+            <source>Off</source>
+            <translation>关闭</translation>
+        </message>
+        <message>
+            <source>Linear (TIN)</source>
+            <translation>线性 (TIN)</translation>
+        </message>
+        <message>
+            <source>Natural neighbour</source>
+            <translation>自然邻域</translation>
+        </message>
+        <message>
+            <source>Sibson C1</source>
+            <translation>Sibson C1</translation>
+        </message>
+        <message>
+            <source>Clough-Tocher</source>
+            <translation>Clough-Tocher</translation>
+        </message>
+        <message>
+            <source>Inverse distance</source>
+            <translation>反距离加权</translation>
+        </message>
+        <message>
+            <source>Nearest point</source>
+            <translation>最近点</translation>
+        </message>
+        <message>
+            <source>Kriging</source>
+            <translation>克里金</translation>
+        </message>
+        <message>
+            <source>B-spline</source>
+            <translation>B 样条</translation>
+        </message>
+        <message>
+            <source>Slime mould, improved</source>
+            <translation>改进黏菌算法</translation>
+        </message>
+        <message>
+            <source>Slime mould, as printed</source>
+            <translation>黏菌算法（论文原式）</translation>
+        </message>
+        <message>
+            <source>Slime mould</source>
+            <translation>黏菌算法</translation>
+        </message>
+        <message>
+            <source>Particle swarm</source>
+            <translation>粒子群</translation>
+        </message>
+        <message>
+            <source>Genetic algorithm</source>
+            <translation>遗传算法</translation>
+        </message>
+        <message>
+            <source>Simulated annealing</source>
+            <translation>模拟退火</translation>
+        </message>
+        <message>
+            <source>NSGA-II</source>
+            <translation>NSGA-II</translation>
+        </message>
+        <message>
+            <source>Bee colony</source>
+            <translation>人工蜂群</translation>
+        </message>
+        <message>
+            <source>Differential evolution</source>
+            <translation>差分进化</translation>
+        </message>
+        <message>
+            <source>CMA-ES</source>
+            <translation>CMA-ES</translation>
+        </message>
+    </context>
+    <context>
+        <name>SettingGroup</name>
+        <message>
+            <source>Fusion</source>
+            <translation>融合</translation>
+        </message>
+        <message>
+            <source>Stands on marks</source>
+            <translation>标志点静站</translation>
+        </message>
+        <message>
+            <source>Sigma points</source>
+            <translation>Sigma 点</translation>
+        </message>
+        <message>
+            <source>Process noise</source>
+            <translation>过程噪声</translation>
+        </message>
+        <message>
+            <source>Process model</source>
+            <translation>过程模型</translation>
+        </message>
+        <message>
+            <source>Start of a run</source>
+            <translation>航次起始</translation>
+        </message>
+        <message>
+            <source>GNSS</source>
+            <translation>GNSS</translation>
+        </message>
+        <message>
+            <source>Barometer</source>
+            <translation>气压计</translation>
+        </message>
+        <message>
+            <source>Optical flow</source>
+            <translation>光流</translation>
+        </message>
+        <message>
+            <source>Accelerometer</source>
+            <translation>加速度计</translation>
+        </message>
+        <message>
+            <source>Course against heading</source>
+            <translation>行走方向与航向</translation>
+        </message>
+        <message>
+            <source>Attitude</source>
+            <translation>姿态</translation>
+        </message>
+        <message>
+            <source>Ties to marks</source>
+            <translation>标志点约束</translation>
+        </message>
+        <message>
+            <source>Outliers</source>
+            <translation>粗差</translation>
+        </message>
+        <message>
+            <source>Divergence</source>
+            <translation>发散</translation>
+        </message>
+        <message>
+            <source>Lasting errors</source>
+            <translation>持续误差</translation>
+        </message>
+        <message>
+            <source>Vertical drift</source>
+            <translation>垂向漂移</translation>
+        </message>
+        <message>
+            <source>Adjustment of all runs</source>
+            <translation>整体平差</translation>
+        </message>
+        <message>
+            <source>Crossovers</source>
+            <translation>交叉点</translation>
+        </message>
+        <message>
+            <source>AUKF</source>
+            <translation>AUKF</translation>
+        </message>
+        <message>
+            <source>AUKF: process noise</source>
+            <translation>AUKF：过程噪声</translation>
+        </message>
+        <message>
+            <source>AUKF: sigma points</source>
+            <translation>AUKF：Sigma 点</translation>
+        </message>
+        <message>
+            <source>AUKF: course</source>
+            <translation>AUKF：行走方向与航向</translation>
+        </message>
+        <message>
+            <source>AUKF: adaptive noise</source>
+            <translation>AUKF：自适应噪声</translation>
+        </message>
+        <message>
+            <source>Ground points</source>
+            <translation>地面点</translation>
+        </message>
+        <message>
+            <source>Statistical outliers</source>
+            <translation>统计粗差</translation>
+        </message>
+        <message>
+            <source>Lonely points</source>
+            <translation>孤立点</translation>
+        </message>
+        <message>
+            <source>Things above the ground</source>
+            <translation>地面以上物</translation>
+        </message>
+        <message>
+            <source>Interpolation and grid</source>
+            <translation>内插与格网</translation>
+        </message>
+        <message>
+            <source>Space above the ground</source>
+            <translation>地面以上空间</translation>
+        </message>
+        <message>
+            <source>Report</source>
+            <translation>报告</translation>
+        </message>
+    </context>
+    <context>
+        <name>SettingMeaning</name>
+        <message>
+            <source>raw: sensors as they are; ukf: 9-state unscented Kalman filter with gate and smoother; aukf: the method of paper 000 as it is; terrawalk: filter with error states, then one adjustment of all runs with their crossovers</source>
+            <translation>raw：直接使用传感器；ukf：带门限和平滑的 9 状态无迹卡尔曼滤波；aukf：论文 000 的原方法；terrawalk：带误差状态的滤波，再对所有航次连同交叉点做整体平差</translation>
+        </message>
+        <message>
+            <source>Rauch-Tung-Striebel pass after the filter</source>
+            <translation>滤波之后做 Rauch-Tung-Striebel 平滑</translation>
+        </message>
+        <message>
+            <source>still seconds at a start mark</source>
+            <translation>在起点标志上静止的秒数</translation>
+        </message>
+        <message>
+            <source>still seconds at a target mark</source>
+            <translation>在终点标志上静止的秒数</translation>
+        </message>
+        <message>
+            <source>targets of fixed-point runs hold the estimator; false: they only show its error</source>
+            <translation>定点航次的终点约束估计；false：只用来显示其误差</translation>
+        </message>
+        <message>
+            <source>spread of the sigma points; used by the yaw row only</source>
+            <translation>sigma 点的散布；只用于航向方程</translation>
+        </message>
+        <message>
+            <source>weight of the centre point, 2 for a Gaussian</source>
+            <translation>中心点的权，高斯分布取 2</translation>
+        </message>
+        <message>
+            <source>secondary spread of the sigma points</source>
+            <translation>sigma 点的二次散布</translation>
+        </message>
+        <message>
+            <source>process noise of the position, east, m2/s</source>
+            <translation>位置的过程噪声，东向，m2/s</translation>
+        </message>
+        <message>
+            <source>process noise of the position, north, m2/s</source>
+            <translation>位置的过程噪声，北向，m2/s</translation>
+        </message>
+        <message>
+            <source>process noise of the position, up, m2/s</source>
+            <translation>位置的过程噪声，天向，m2/s</translation>
+        </message>
+        <message>
+            <source>process noise of the velocity, east, m2/s3</source>
+            <translation>速度的过程噪声，东向，m2/s3</translation>
+        </message>
+        <message>
+            <source>process noise of the velocity, north, m2/s3</source>
+            <translation>速度的过程噪声，北向，m2/s3</translation>
+        </message>
+        <message>
+            <source>process noise of the velocity, up, m2/s3</source>
+            <translation>速度的过程噪声，天向，m2/s3</translation>
+        </message>
+        <message>
+            <source>process noise of the acceleration, east, m2/s5</source>
+            <translation>加速度的过程噪声，东向，m2/s5</translation>
+        </message>
+        <message>
+            <source>process noise of the acceleration, north, m2/s5</source>
+            <translation>加速度的过程噪声，北向，m2/s5</translation>
+        </message>
+        <message>
+            <source>process noise of the acceleration, up, m2/s5</source>
+            <translation>加速度的过程噪声，天向，m2/s5</translation>
+        </message>
+        <message>
+            <source>in which an acceleration dies away; 0: never</source>
+            <translation>加速度衰减的时间；0：不衰减</translation>
+        </message>
+        <message>
+            <source>longer gaps are cut into steps of this length</source>
+            <translation>更长的间隔切成这么长的步</translation>
+        </message>
+        <message>
+            <source>of the velocity at the start</source>
+            <translation>起始时刻速度的 σ</translation>
+        </message>
+        <message>
+            <source>of the acceleration at the start</source>
+            <translation>起始时刻加速度的 σ</translation>
+        </message>
+        <message>
+            <source>by which a position ages while nothing measures it</source>
+            <translation>没有观测时位置精度随此速度下降</translation>
+        </message>
+        <message>
+            <source>around a known start mark, before the ties to it</source>
+            <translation>已知起点标志周围，在受其约束之前</translation>
+        </message>
+        <message>
+            <source>below this the array counts as standing still</source>
+            <translation>低于此速度视为阵列静止</translation>
+        </message>
+        <message>
+            <source>use GNSS positions</source>
+            <translation>使用 GNSS 位置</translation>
+        </message>
+        <message>
+            <source>use GNSS (Doppler) velocities</source>
+            <translation>使用 GNSS（多普勒）速度</translation>
+        </message>
+        <message>
+            <source>when the GNSS height is used; rtk: with an RTK fix, fixed or float, and with any fix while no barometer tells</source>
+            <translation>何时使用 GNSS 高程；rtk：有 RTK 解（固定或浮点）时，以及气压计无读数时的任何解</translation>
+        </message>
+        <message>
+            <source>position, single point, per horizontal axis</source>
+            <translation>单点定位的位置，每个水平轴</translation>
+        </message>
+        <message>
+            <source>position, DGNSS, per horizontal axis</source>
+            <translation>差分定位的位置，每个水平轴</translation>
+        </message>
+        <message>
+            <source>position, RTK float, per horizontal axis</source>
+            <translation>RTK 浮点解的位置，每个水平轴</translation>
+        </message>
+        <message>
+            <source>position, RTK fixed, per horizontal axis</source>
+            <translation>RTK 固定解的位置，每个水平轴</translation>
+        </message>
+        <message>
+            <source>position, single point, height</source>
+            <translation>单点定位的高程</translation>
+        </message>
+        <message>
+            <source>position, DGNSS, height</source>
+            <translation>差分定位的高程</translation>
+        </message>
+        <message>
+            <source>position, RTK float, height</source>
+            <translation>RTK 浮点解的高程</translation>
+        </message>
+        <message>
+            <source>position, RTK fixed, height</source>
+            <translation>RTK 固定解的高程</translation>
+        </message>
+        <message>
+            <source>the receiver's own accuracy counts no less than this share of the sigmas above</source>
+            <translation>接收机自报的精度不小于上述 σ 的这一比例</translation>
+        </message>
+        <message>
+            <source>time in which a position error without RTK fix changes</source>
+            <translation>无 RTK 解时位置误差变化的时间</translation>
+        </message>
+        <message>
+            <source>the same with an RTK fix</source>
+            <translation>有 RTK 解时的同一时间</translation>
+        </message>
+        <message>
+            <source>Doppler velocity, per horizontal axis</source>
+            <translation>多普勒速度，每个水平轴</translation>
+        </message>
+        <message>
+            <source>Doppler velocity, up</source>
+            <translation>多普勒速度，天向</translation>
+        </message>
+        <message>
+            <source>time in which a velocity error changes</source>
+            <translation>速度误差变化的时间</translation>
+        </message>
+        <message>
+            <source>use the barometer</source>
+            <translation>使用气压计</translation>
+        </message>
+        <message>
+            <source>height per height of the standard atmosphere, from a fit at known marks</source>
+            <translation>每单位标准大气高度对应的高度，由已知标志点拟合</translation>
+        </message>
+        <message>
+            <source>white noise</source>
+            <translation>白噪声</translation>
+        </message>
+        <message>
+            <source>error by gusts of wind</source>
+            <translation>阵风引起的误差</translation>
+        </message>
+        <message>
+            <source>length of a gust</source>
+            <translation>一阵风的长度</translation>
+        </message>
+        <message>
+            <source>after this silence GNSS heights of any fix stand in, unless never</source>
+            <translation>中断超过此时间后用任何解的 GNSS 高程代替，除非设为从不</translation>
+        </message>
+        <message>
+            <source>drift since the barometer was zeroed, m per root of a minute</source>
+            <translation>气压计归零以来的漂移，每根号分钟的米数</translation>
+        </message>
+        <message>
+            <source>use the optical flow</source>
+            <translation>使用光流</translation>
+        </message>
+        <message>
+            <source>variance at rest, m2/s2</source>
+            <translation>静止时的方差，m2/s2</translation>
+        </message>
+        <message>
+            <source>growth of the variance with the square of the speed</source>
+            <translation>方差随速度平方的增长</translation>
+        </message>
+        <message>
+            <source>lasting error of scale, as a share of the speed</source>
+            <translation>持续的比例误差，占速度的份额</translation>
+        </message>
+        <message>
+            <source>for how long errors of scale and heading keep their direction</source>
+            <translation>比例误差和航向误差保持方向的时间</translation>
+        </message>
+        <message>
+            <source>flow_quality below this is rejected</source>
+            <translation>flow_quality 低于此值的读数被剔除</translation>
+        </message>
+        <message>
+            <source>reject readings of nothing amid motion, and those far from their neighbours</source>
+            <translation>剔除运动中的零读数，以及与相邻读数相差很大的读数</translation>
+        </message>
+        <message>
+            <source>let the recent mean flow stand in for missing readings</source>
+            <translation>用近期的平均光流代替缺失的读数</translation>
+        </message>
+        <message>
+            <source>after this time without a reading</source>
+            <translation>没有读数达到此时间之后</translation>
+        </message>
+        <message>
+            <source>of the mean that stands in</source>
+            <translation>代用平均值的 σ</translation>
+        </message>
+        <message>
+            <source>the mean stands in no longer than this after the last flow reading</source>
+            <translation>最后一个光流读数之后，平均值代用不超过此时间</translation>
+        </message>
+        <message>
+            <source>over which the mean is taken</source>
+            <translation>取平均值的时间范围</translation>
+        </message>
+        <message>
+            <source>use the accelerometer</source>
+            <translation>使用加速度计</translation>
+        </message>
+        <message>
+            <source>of the specific force, steps of the walk included</source>
+            <translation>比力的 σ，包括步伐的影响</translation>
+        </message>
+        <message>
+            <source>use the course of the walk against the heading (paper, eq 4)</source>
+            <translation>用行走方向与航向对比（论文式 4）</translation>
+        </message>
+        <message>
+            <source>of heading less course</source>
+            <translation>航向减行走方向的 σ</translation>
+        </message>
+        <message>
+            <source>slower than this the course is not used</source>
+            <translation>低于此速度时不用行走方向</translation>
+        </message>
+        <message>
+            <source>yaw of the array less course, counter-clockwise</source>
+            <translation>阵列偏航角减行走方向，逆时针为正</translation>
+        </message>
+        <message>
+            <source>roll and pitch</source>
+            <translation>横滚和俯仰</translation>
+        </message>
+        <message>
+            <source>heading</source>
+            <translation>航向</translation>
+        </message>
+        <message>
+            <source>by which the compass may come behind in turns</source>
+            <translation>转弯时罗盘可能滞后的时间</translation>
+        </message>
+        <message>
+            <source>roll and pitch while the last known ones stand in</source>
+            <translation>沿用最后已知值时的横滚和俯仰</translation>
+        </message>
+        <message>
+            <source>heading while the last known one stands in</source>
+            <translation>沿用最后已知值时的航向</translation>
+        </message>
+        <message>
+            <source>for how long a held heading rotates the flow</source>
+            <translation>沿用的航向可旋转光流的时间</translation>
+        </message>
+        <message>
+            <source>roll and pitch where none was ever given</source>
+            <translation>从未给出时的横滚和俯仰</translation>
+        </message>
+        <message>
+            <source>how well the array stands over a mark, per horizontal axis</source>
+            <translation>阵列对准标志点的精度，每个水平轴</translation>
+        </message>
+        <message>
+            <source>height of the array above a mark</source>
+            <translation>阵列在标志点之上的高度</translation>
+        </message>
+        <message>
+            <source>of both</source>
+            <translation>以上两者的相关时间</translation>
+        </message>
+        <message>
+            <source>a range that far from the median of the stand is left out</source>
+            <translation>与静站中位数相差超过此值的测距被舍去</translation>
+        </message>
+        <message>
+            <source>shorter ranges on a mark are not believed</source>
+            <translation>标志点上更短的测距不可信</translation>
+        </message>
+        <message>
+            <source>longer ranges on a mark are not believed</source>
+            <translation>标志点上更长的测距不可信</translation>
+        </message>
+        <message>
+            <source>of the array above a mark where no range was measured</source>
+            <translation>没有测距时假定的阵列高度</translation>
+        </message>
+        <message>
+            <source>of that height</source>
+            <translation>该高度的 σ</translation>
+        </message>
+        <message>
+            <source>down-weight and reject outliers</source>
+            <translation>对粗差降权并剔除</translation>
+        </message>
+        <message>
+            <source>from here on the weight falls</source>
+            <translation>从此处开始降权</translation>
+        </message>
+        <message>
+            <source>beyond this a reading is rejected</source>
+            <translation>超过此值的读数被剔除</translation>
+        </message>
+        <message>
+            <source>a silence this long ends a spell of rejections</source>
+            <translation>这么长的中断结束一段连续剔除</translation>
+        </message>
+        <message>
+            <source>a sensor rejected for so long is believed again</source>
+            <translation>传感器被剔除这么久之后重新采信</translation>
+        </message>
+        <message>
+            <source>a larger sigma ends the run with an error</source>
+            <translation>σ 更大时该航次以错误结束</translation>
+        </message>
+        <message>
+            <source>a track farther from GNSS ends the run with an error</source>
+            <translation>轨迹离 GNSS 更远时该航次以错误结束</translation>
+        </message>
+        <message>
+            <source>after this time</source>
+            <translation>持续此时间之后</translation>
+        </message>
+        <message>
+            <source>a larger share of rejected GNSS positions ends the run with an error</source>
+            <translation>被剔除的 GNSS 位置占比更大时该航次以错误结束</translation>
+        </message>
+        <message>
+            <source>rejected GNSS positions before their share counts</source>
+            <translation>剔除数达到此值后占比才有效</translation>
+        </message>
+        <message>
+            <source>over which the share is taken</source>
+            <translation>计算占比的时间范围</translation>
+        </message>
+        <message>
+            <source>which filter method aukf runs on the model of paper 000</source>
+            <translation>aukf 在论文 000 的模型上运行哪种滤波</translation>
+        </message>
+        <message>
+            <source>variance that a step adds to the position, east, m2</source>
+            <translation>每一步给位置增加的方差，东向，m2</translation>
+        </message>
+        <message>
+            <source>variance that a step adds to the position, north, m2</source>
+            <translation>每一步给位置增加的方差，北向，m2</translation>
+        </message>
+        <message>
+            <source>variance that a step adds to the position, up, m2</source>
+            <translation>每一步给位置增加的方差，天向，m2</translation>
+        </message>
+        <message>
+            <source>variance that a step adds to the velocity, east, m2/s2</source>
+            <translation>每一步给速度增加的方差，东向，m2/s2</translation>
+        </message>
+        <message>
+            <source>variance that a step adds to the velocity, north, m2/s2</source>
+            <translation>每一步给速度增加的方差，北向，m2/s2</translation>
+        </message>
+        <message>
+            <source>variance that a step adds to the velocity, up, m2/s2</source>
+            <translation>每一步给速度增加的方差，天向，m2/s2</translation>
+        </message>
+        <message>
+            <source>variance that a step adds to the acceleration, east, m2/s4</source>
+            <translation>每一步给加速度增加的方差，东向，m2/s4</translation>
+        </message>
+        <message>
+            <source>variance that a step adds to the acceleration, north, m2/s4</source>
+            <translation>每一步给加速度增加的方差，北向，m2/s4</translation>
+        </message>
+        <message>
+            <source>variance that a step adds to the acceleration, up, m2/s4</source>
+            <translation>每一步给加速度增加的方差，天向，m2/s4</translation>
+        </message>
+        <message>
+            <source>step to which the noise belongs; a step of another length adds its share of it</source>
+            <translation>噪声所对应的步长；其他长度的步按比例增加</translation>
+        </message>
+        <message>
+            <source>spread of the sigma points</source>
+            <translation>sigma 点的散布</translation>
+        </message>
+        <message>
+            <source>heading as a measurement of the course</source>
+            <translation>把航向作为行走方向的观测</translation>
+        </message>
+        <message>
+            <source>of the heading as a course</source>
+            <translation>航向作为行走方向的 σ</translation>
+        </message>
+        <message>
+            <source>below this speed the row is left out</source>
+            <translation>低于此速度时舍去该方程</translation>
+        </message>
+        <message>
+            <source>yaw of the array less course of the walk, counter-clockwise</source>
+            <translation>阵列偏航角减行走方向，逆时针为正</translation>
+        </message>
+        <message>
+            <source>filter adaptive-ukf: b, the noise remembers 1 / (1 - b) readings</source>
+            <translation>adaptive-ukf 滤波：b，噪声记住 1 / (1 - b) 个读数</translation>
+        </message>
+        <message>
+            <source>filter adaptive-ukf: least noise variance over the sensor's own</source>
+            <translation>adaptive-ukf 滤波：噪声方差与传感器自身方差之比的最小值</translation>
+        </message>
+        <message>
+            <source>filter adaptive-ukf: greatest; a reading that asks for more is left out</source>
+            <translation>adaptive-ukf 滤波：最大值；要求更大的读数被舍去</translation>
+        </message>
+        <message>
+            <source>of the range finder at short range</source>
+            <translation>测距仪在近距的 σ</translation>
+        </message>
+        <message>
+            <source>of the range finder beyond, as a share of the range</source>
+            <translation>测距仪在远距的 σ，占距离的份额</translation>
+        </message>
+        <message>
+            <source>up to here a range counts as short</source>
+            <translation>不超过此值的测距算近距</translation>
+        </message>
+        <message>
+            <source>shorter ranges are a hand or a leaf</source>
+            <translation>更短的测距是手或叶片</translation>
+        </message>
+        <message>
+            <source>longer ranges are not believed</source>
+            <translation>更长的测距不可信</translation>
+        </message>
+        <message>
+            <source>weaker returns are not believed</source>
+            <translation>更弱的回波不可信</translation>
+        </message>
+        <message>
+            <source>stronger returns are not believed</source>
+            <translation>更强的回波不可信</translation>
+        </message>
+        <message>
+            <source>between the ray and the vertical</source>
+            <translation>测线与铅垂线的夹角</translation>
+        </message>
+        <message>
+            <source>points of a less sure position are left out</source>
+            <translation>位置更不确定的点被舍去</translation>
+        </message>
+        <message>
+            <source>points of a less sure height are left out</source>
+            <translation>高程更不确定的点被舍去</translation>
+        </message>
+        <message>
+            <source>robust sigmas off the neighbours that make a spike; 0: no check</source>
+            <translation>偏离相邻点多少个稳健 σ 算尖刺；0：不检查</translation>
+        </message>
+        <message>
+            <source>path on each side in which neighbours count</source>
+            <translation>两侧各多长路程内的相邻点参与</translation>
+        </message>
+        <message>
+            <source>time on each side in which neighbours count</source>
+            <translation>两侧各多长时间内的相邻点参与</translation>
+        </message>
+        <message>
+            <source>least robust sigma of the neighbours</source>
+            <translation>相邻点稳健 σ 的下限</translation>
+        </message>
+        <message>
+            <source>leave out points farther from their neighbours than others are</source>
+            <translation>剔除离邻点比其他点更远的点</translation>
+        </message>
+        <message>
+            <source>that the distance is taken to</source>
+            <translation>计算距离所用的邻点数</translation>
+        </message>
+        <message>
+            <source>above the mean distance that leave a point out</source>
+            <translation>超过平均距离多少个 σ 的点被剔除</translation>
+        </message>
+        <message>
+            <source>leave out points with next to nobody around them</source>
+            <translation>剔除周围几乎没有其他点的点</translation>
+        </message>
+        <message>
+            <source>in which neighbours are counted, in space</source>
+            <translation>在空间中统计邻点的半径</translation>
+        </message>
+        <message>
+            <source>that keep a point</source>
+            <translation>保留一个点所需的邻点数</translation>
+        </message>
+        <message>
+            <source>leave out what stands on the ground and is narrow: plants, a hand before the range finder</source>
+            <translation>剔除立在地面上的窄小物体：植株、测距仪前的手</translation>
+        </message>
+        <message>
+            <source>windows are 3, 5, 9, ... of these wide</source>
+            <translation>窗口宽度为其 3、5、9…… 倍</translation>
+        </message>
+        <message>
+            <source>what is wider is ground</source>
+            <translation>更宽的是地面</translation>
+        </message>
+        <message>
+            <source>of the ground</source>
+            <translation>地面的坡度</translation>
+        </message>
+        <message>
+            <source>of what is left out</source>
+            <translation>被剔除物的最低高度</translation>
+        </message>
+        <message>
+            <source>whatever stands higher is left out, steep ground or not</source>
+            <translation>更高的一律剔除，不论地面是否陡峭</translation>
+        </message>
+        <message>
+            <source>points that near belong to one thing</source>
+            <translation>距离这么近的点属于同一物体</translation>
+        </message>
+        <message>
+            <source>what goes on for so long is a terrace and stays; 0: nothing does</source>
+            <translation>延续这么长的是梯田，保留；0：都不保留</translation>
+        </message>
+        <message>
+            <source>one point stands for each cell of this size; 0: all points</source>
+            <translation>每个这么大的格子由一个点代表；0：使用所有点</translation>
+        </message>
+        <message>
+            <source>use the ground points of fixed-point runs as well</source>
+            <translation>也使用定点航次的地面点</translation>
+        </message>
+        <message>
+            <source>triangles with a longer edge are left out; 0: from the points</source>
+            <translation>边更长的三角形被舍去；0：由点的密度决定</translation>
+        </message>
+        <message>
+            <source>how heights between points are interpolated; auto: the best by cross-validation</source>
+            <translation>点之间高程的内插方法；auto：由交叉验证选最好的</translation>
+        </message>
+        <message>
+            <source>whether risers of half a metre and more are found in the points, for methods linear and clough-tocher to follow</source>
+            <translation>是否在点中寻找半米及以上的田坎，供 linear 和 clough-tocher 方法遵循</translation>
+        </message>
+        <message>
+            <source>compare a method that is named with the plain one</source>
+            <translation>把指定的方法与普通方法比较</translation>
+        </message>
+        <message>
+            <source>cell size of the DEM; 0: from the density of the points</source>
+            <translation>DEM 的格网大小；0：由点的密度决定</translation>
+        </message>
+        <message>
+            <source>write dem_multiband.tif as well: heights and standard errors, bands in the order of BAG</source>
+            <translation>另写 dem_multiband.tif：高程和标准差，波段按 BAG 的顺序</translation>
+        </message>
+        <message>
+            <source>map the space above the ground that the laser crossed (OctoMap) as well</source>
+            <translation>同时绘制激光穿过的地面以上空间（OctoMap）</translation>
+        </message>
+        <message>
+            <source>side of a voxel</source>
+            <translation>体素的边长</translation>
+        </message>
+        <message>
+            <source>of a longer ray the first part counts as free, its hit for nothing</source>
+            <translation>更长的测线只有前段算空闲，其击中点不计</translation>
+        </message>
+        <message>
+            <source>what lies lower above the DEM counts as ground</source>
+            <translation>DEM 之上低于此值的算地面</translation>
+        </message>
+        <message>
+            <source>how far up to look</source>
+            <translation>向上查看的高度</translation>
+        </message>
+        <message>
+            <source>marks farther from any ground point are not compared with one</source>
+            <translation>离任何地面点更远的标志点不参与比较</translation>
+        </message>
+        <message>
+            <source>of the confidence intervals in the report</source>
+            <translation>报告中置信区间的随机种子</translation>
+        </message>
+        <message>
+            <source>time in which the lasting error of GNSS positions changes</source>
+            <translation>GNSS 位置持续误差变化的时间</translation>
+        </message>
+        <message>
+            <source>white noise of GNSS positions as a share of the sigma of the fix</source>
+            <translation>GNSS 位置的白噪声，占该解 σ 的份额</translation>
+        </message>
+        <message>
+            <source>the same for RTK fixed</source>
+            <translation>RTK 固定解的同一份额</translation>
+        </message>
+        <message>
+            <source>compass error that wanders</source>
+            <translation>缓慢变化的罗盘误差</translation>
+        </message>
+        <message>
+            <source>time in which it changes</source>
+            <translation>其变化的时间</translation>
+        </message>
+        <message>
+            <source>compass error A sin yaw + B cos yaw, shared by all runs</source>
+            <translation>罗盘误差 A sin yaw + B cos yaw，各航次共有</translation>
+        </message>
+        <message>
+            <source>by which a run differs from that</source>
+            <translation>单个航次与之的差异</translation>
+        </message>
+        <message>
+            <source>error of scale of the optical flow, constant in a run</source>
+            <translation>光流的比例误差，一个航次内不变</translation>
+        </message>
+        <message>
+            <source>half the difference of the scales of forward and left</source>
+            <translation>前向与左向比例之差的一半</translation>
+        </message>
+        <message>
+            <source>bias of the gyro, constant in a run</source>
+            <translation>陀螺零偏，一个航次内不变</translation>
+        </message>
+        <message>
+            <source>error of scale of the gyro, constant in a run</source>
+            <translation>陀螺的比例误差，一个航次内不变</translation>
+        </message>
+        <message>
+            <source>by which a turn summed up from the gyro errs</source>
+            <translation>由陀螺累加的转角的误差</translation>
+        </message>
+        <message>
+            <source>bias of each axis of the accelerometer</source>
+            <translation>加速度计每个轴的零偏</translation>
+        </message>
+        <message>
+            <source>time in which that of the vertical axis wanders</source>
+            <translation>垂直轴零偏变化的时间</translation>
+        </message>
+        <message>
+            <source>time in which the error of the tilt wanders, and with it that of the level axes</source>
+            <translation>倾斜误差变化的时间，水平轴零偏随之变化</translation>
+        </message>
+        <message>
+            <source>vertical velocity of the array</source>
+            <translation>阵列的垂向速度</translation>
+        </message>
+        <message>
+            <source>the noise of each sensor follows its innovations</source>
+            <translation>各传感器的噪声随其新息调整</translation>
+        </message>
+        <message>
+            <source>in which older innovations fade</source>
+            <translation>旧新息淡出的时间</translation>
+        </message>
+        <message>
+            <source>least factor on the variance of a sensor</source>
+            <translation>传感器方差的最小因子</translation>
+        </message>
+        <message>
+            <source>greatest factor on the variance of a sensor</source>
+            <translation>传感器方差的最大因子</translation>
+        </message>
+        <message>
+            <source>a quick look: crossovers bend the filter's tracks in a second stage, without the adjustment</source>
+            <translation>快速查看：交叉点在第二步修正滤波轨迹，不做整体平差</translation>
+        </message>
+        <message>
+            <source>between the knots of the track's correction</source>
+            <translation>轨迹改正的节点间隔</translation>
+        </message>
+        <message>
+            <source>between the knots of the compass error</source>
+            <translation>罗盘误差的节点间隔</translation>
+        </message>
+        <message>
+            <source>between the knots of the GNSS error</source>
+            <translation>GNSS 误差的节点间隔</translation>
+        </message>
+        <message>
+            <source>between the knots of the barometer's drift</source>
+            <translation>气压计漂移的节点间隔</translation>
+        </message>
+        <message>
+            <source>rounds of the adjustment with crossovers</source>
+            <translation>带交叉点的平差轮数</translation>
+        </message>
+        <message>
+            <source>hold passes over the same ground together</source>
+            <translation>使经过同一地面的各次行走彼此一致</translation>
+        </message>
+        <message>
+            <source>scale the noise of each sensor by what its residuals say</source>
+            <translation>按残差调整各传感器的噪声</translation>
+        </message>
+        <message>
+            <source>along a pass between the places where others are looked for</source>
+            <translation>沿行走方向寻找交叉的间距</translation>
+        </message>
+        <message>
+            <source>farthest apart of two passes in plan</source>
+            <translation>两次经过在平面上的最大距离</translation>
+        </message>
+        <message>
+            <source>of the ground that is fitted about a crossover</source>
+            <translation>在交叉点周围拟合地面的半径</translation>
+        </message>
+        <message>
+            <source>passes of one run are at least so far apart in time</source>
+            <translation>同一航次的两次经过至少相隔的时间</translation>
+        </message>
+        <message>
+            <source>of the weights that fall with the distance from a crossover</source>
+            <translation>随离交叉点距离下降的权的带宽</translation>
+        </message>
+        <message>
+            <source>holds the slope at a crossover back where the points do not tell it</source>
+            <translation>点不足以确定坡度时对坡度的约束</translation>
+        </message>
+        <message>
+            <source>of each pass at a crossover</source>
+            <translation>每次经过在交叉点的最少点数</translation>
+        </message>
+        <message>
+            <source>misfit of two passes over even ground</source>
+            <translation>两次经过在平整地面上的不符值</translation>
+        </message>
+        <message>
+            <source>slope at which ground is half uneven</source>
+            <translation>地面算半不平整的坡度</translation>
+        </message>
+        <message>
+            <source>added to the misfit over uneven ground</source>
+            <translation>在不平整地面上加到不符值上</translation>
+        </message>
+        <message>
+            <source>added to that, times the squared distance of the passes</source>
+            <translation>再加上此值乘以两次经过距离的平方</translation>
+        </message>
+        <message>
+            <source>of the slope that turns errors of the plan into height</source>
+            <translation>把平面误差变为高程的坡度份额</translation>
+        </message>
+        <message>
+            <source>neighbouring crossovers share points</source>
+            <translation>相邻交叉点共用一些点</translation>
+        </message>
+        <message>
+            <source>share of the ground, in cells of 10 m, whose crossovers only test the result</source>
+            <translation>只用来检验结果的地面份额，以 10 m 的格子计</translation>
+        </message>
+        <message>
+            <source>random walk of the horizontal velocity</source>
+            <translation>水平速度的随机游走</translation>
+        </message>
+        <message>
+            <source>of the ground below the walk about its level</source>
+            <translation>行走下方地面绕其平均面的起伏</translation>
+        </message>
+        <message>
+            <source>by which that level wanders</source>
+            <translation>该平均面的漂移</translation>
+        </message>
+        <message>
+            <source>white noise of the accelerometer, which tells how the height bends; 0: it does not</source>
+            <translation>加速度计的白噪声，反映高程如何弯曲；0：不使用</translation>
+        </message>
+        <message>
+            <source>between the knots of the accelerometer's bias</source>
+            <translation>加速度计零偏的节点间隔</translation>
+        </message>
+        <message>
+            <source>by which the array climbs where no range was measured</source>
+            <translation>没有测距时阵列的爬升</translation>
+        </message>
+        <message>
+            <source>readings that are left out</source>
+            <translation>剔除的读数</translation>
+        </message>
+        <message>
+            <source>runs that are left out</source>
+            <translation>剔除的航次</translation>
+        </message>
+        <message>
+            <source>marks that are left out: neither control nor check</source>
+            <translation>剔除的标志点：既不作控制也不作检查</translation>
+        </message>
+        <message>
+            <source>lines that the surface keeps to, beside those of the survey's file</source>
+            <translation>曲面所遵循的线，另加测量文件中的线</translation>
         </message>
     </context>
     <context>
@@ -2360,16 +3480,16 @@
             <translation>检核</translation>
         </message>
         <message>
+            <source>Errors by group (%1)</source>
+            <translation>按组误差 (%1)</translation>
+        </message>
+        <message>
             <source>Height error (%1)</source>
             <translation>高程误差 (%1)</translation>
         </message>
         <message>
             <source>Predicted σ (%1)</source>
             <translation>预测 σ (%1)</translation>
-        </message>
-        <message>
-            <source>Errors by group (%1)</source>
-            <translation>按组误差 (%1)</translation>
         </message>
     </context>
     <context>
@@ -2465,6 +3585,33 @@
         <message>
             <source>DEM, ESRI ASCII</source>
             <translation>DEM，ESRI ASCII</translation>
+        </message>
+    </context>
+    <context>
+        <name>terrawalk::gui::FigureTable</name>
+        <message>
+            <source>better</source>
+            <translation>更好</translation>
+        </message>
+        <message>
+            <source>worse</source>
+            <translation>更差</translation>
+        </message>
+        <message>
+            <source>Before</source>
+            <translation>之前</translation>
+        </message>
+        <message>
+            <source>Now</source>
+            <translation>现在</translation>
+        </message>
+        <message>
+            <source>Change</source>
+            <translation>变化</translation>
+        </message>
+        <message>
+            <source>%1 better, %2 worse than the run of %3</source>
+            <translation>%1 优于、%2 劣于 %3 的处理</translation>
         </message>
     </context>
     <context>
@@ -2810,10 +3957,6 @@
             <translation>报告的打印样式；可在此存为 PDF 或打印。</translation>
         </message>
         <message>
-            <source>Runs, marks, edits and results. The box shows or hides a thing in all views; the right button leaves a run or a mark out, or takes an edit back.</source>
-            <translation>航次、标志点、编辑和成果。方框控制在所有视图中显示或隐藏；右键可剔除航次或标志点，或撤回编辑。</translation>
-        </message>
-        <message>
             <source>What is known of the place that was clicked: its height, where the error comes from, the nearest hits, and what another pass would give.</source>
             <translation>所单击处的信息：高程、误差来源、最近的测点，以及再走一遍会有什么改进。</translation>
         </message>
@@ -2829,15 +3972,17 @@
             <source>What the program did and what went wrong, with the cure. Newest below.</source>
             <translation>程序做了什么、出了什么问题及如何解决。最新的在最下面。</translation>
         </message>
-        <message numerus="yes">
-            <source>exclude %n stretches</source>
-            <translation>
-                <numerusform>排除 %n 段</numerusform>
-            </translation>
+        <message>
+            <source>All se&amp;ttings…</source>
+            <translation>所有设置(&amp;T)…</translation>
         </message>
         <message>
-            <source>%1 stretches, %2 s in all, are left out: process again to see what it changes.</source>
-            <translation>已排除 %1 段，共 %2 s：重新处理即可看到变化。</translation>
+            <source>Earlier &amp;runs…</source>
+            <translation>历次处理(&amp;R)…</translation>
+        </message>
+        <message>
+            <source>Runs, marks, edits and results. The box shows or hides a thing in all views; a click on a result shows it; the right button leaves a run or a mark out, or takes an edit back.</source>
+            <translation>航次、标志点、编辑和成果。方框控制在所有视图中显示或隐藏；单击成果即显示；右键可剔除航次或标志点，或撤回编辑。</translation>
         </message>
         <message>
             <source>&amp;Units and numbers</source>
@@ -2858,6 +4003,16 @@
         <message>
             <source>US survey feet</source>
             <translation>美国测量英尺</translation>
+        </message>
+        <message numerus="yes">
+            <source>exclude %n stretches</source>
+            <translation>
+                <numerusform>排除 %n 段</numerusform>
+            </translation>
+        </message>
+        <message>
+            <source>%1 stretches, %2 s in all, are left out: process again to see what it changes.</source>
+            <translation>已排除 %1 段，共 %2 s：重新处理即可看到变化。</translation>
         </message>
     </context>
     <context>
@@ -3510,6 +4665,81 @@
         </message>
     </context>
     <context>
+        <name>terrawalk::gui::RunsDialog</name>
+        <message>
+            <source>Earlier runs</source>
+            <translation>历次处理</translation>
+        </message>
+        <message>
+            <source>Compare heights</source>
+            <translation>比较高程</translation>
+        </message>
+        <message>
+            <source>Go back to this run</source>
+            <translation>返回这次处理</translation>
+        </message>
+        <message>
+            <source>Run</source>
+            <translation>处理</translation>
+        </message>
+        <message>
+            <source>Set otherwise than in the run before</source>
+            <translation>与前一次不同的设置</translation>
+        </message>
+        <message>
+            <source>Settings that differ from those of now</source>
+            <translation>与当前不同的设置</translation>
+        </message>
+        <message>
+            <source>Setting</source>
+            <translation>设置</translation>
+        </message>
+        <message>
+            <source>In that run</source>
+            <translation>那次处理</translation>
+        </message>
+        <message>
+            <source>Now</source>
+            <translation>当前</translation>
+        </message>
+        <message>
+            <source>%1, shown</source>
+            <translation>%1（显示中）</translation>
+        </message>
+        <message>
+            <source>%1, by %2</source>
+            <translation>%1，%2</translation>
+        </message>
+        <message>
+            <source>%1: %2</source>
+            <translation>%1：%2</translation>
+        </message>
+        <message>
+            <source>nothing</source>
+            <translation>无</translation>
+        </message>
+        <message>
+            <source>; </source>
+            <translation>；</translation>
+        </message>
+        <message>
+            <source>Its settings are those of now.</source>
+            <translation>其设置与当前相同。</translation>
+        </message>
+        <message>
+            <source>Shows its results and takes its settings over; undo brings yours back</source>
+            <translation>显示其结果并采用其设置；可撤销</translation>
+        </message>
+        <message>
+            <source>Takes its settings over, undo brings yours back; process again to see its results</source>
+            <translation>采用其设置，可撤销；重新处理即可看到结果</translation>
+        </message>
+        <message>
+            <source>How the heights changed since, as a layer; for runs since the survey was opened</source>
+            <translation>以图层显示此后的高程变化；限打开测量以来的处理</translation>
+        </message>
+    </context>
+    <context>
         <name>terrawalk::gui::SettingEditor</name>
         <message>
             <source>auto</source>
@@ -3518,6 +4748,65 @@
         <message>
             <source>&lt;p&gt;%1&lt;/p&gt;&lt;p&gt;Permitted: %2&lt;br&gt;Default: %3&lt;br&gt;&lt;tt&gt;%4&lt;/tt&gt;&lt;/p&gt;</source>
             <translation>&lt;p&gt;%1&lt;/p&gt;&lt;p&gt;允许值：%2&lt;br&gt;默认：%3&lt;br&gt;&lt;tt&gt;%4&lt;/tt&gt;&lt;/p&gt;</translation>
+        </message>
+        <message>
+            <source>Back to the default of %1</source>
+            <translation>恢复“%1”的默认值</translation>
+        </message>
+        <message>
+            <source>Back to the default: %1</source>
+            <translation>恢复默认：%1</translation>
+        </message>
+        <message>
+            <source>on</source>
+            <translation>开</translation>
+        </message>
+        <message>
+            <source>off</source>
+            <translation>关</translation>
+        </message>
+    </context>
+    <context>
+        <name>terrawalk::gui::SettingsDialog</name>
+        <message>
+            <source>All settings</source>
+            <translation>所有设置</translation>
+        </message>
+        <message>
+            <source>Search by name, key or meaning, in English or Chinese</source>
+            <translation>按名称、键或含义搜索，中英文均可</translation>
+        </message>
+        <message>
+            <source>Search</source>
+            <translation>搜索</translation>
+        </message>
+        <message>
+            <source>Groups of settings</source>
+            <translation>设置分组</translation>
+        </message>
+        <message>
+            <source>Reset all</source>
+            <translation>全部恢复默认</translation>
+        </message>
+        <message>
+            <source>All settings back to their defaults; edits of the survey stay, and undo brings them back</source>
+            <translation>所有设置恢复默认；测量的编辑保留，可撤销</translation>
+        </message>
+        <message>
+            <source>Close</source>
+            <translation>关闭</translation>
+        </message>
+        <message>
+            <source>No setting is like that.</source>
+            <translation>没有这样的设置。</translation>
+        </message>
+        <message>
+            <source>%1 · %2</source>
+            <translation>%1 · %2</translation>
+        </message>
+        <message>
+            <source>Only changed (%1)</source>
+            <translation>只看已改 (%1)</translation>
         </message>
     </context>
     <context>
@@ -3652,10 +4941,14 @@
     <context>
         <name>terrawalk::gui::StepCard</name>
         <message numerus="yes">
-            <source>%n more setting(s)</source>
+            <source>%n more setting(s)…</source>
             <translation>
-                <numerusform>其余 %n 项设置</numerusform>
+                <numerusform>其余 %n 项设置…</numerusform>
             </translation>
+        </message>
+        <message>
+            <source>%1 %2 changed</source>
+            <translation>%1 已改 %2 项</translation>
         </message>
     </context>
     <context>
@@ -3697,14 +4990,6 @@
             <translation>生成相同文件的 terrawalk 命令</translation>
         </message>
         <message>
-            <source>Earlier runs</source>
-            <translation>以前的处理</translation>
-        </message>
-        <message>
-            <source>Earlier runs: choosing one shows its results and takes its settings</source>
-            <translation>以前的处理：选择后显示其结果并采用其设置</translation>
-        </message>
-        <message>
             <source>Show the accuracy</source>
             <translation>查看精度</translation>
         </message>
@@ -3727,10 +5012,6 @@
         <message>
             <source>%1 · %2 left</source>
             <translation>%1 · 剩余%2</translation>
-        </message>
-        <message>
-            <source>%1 · %2</source>
-            <translation>%1 · %2</translation>
         </message>
         <message numerus="yes">
             <source>%n run(s)</source>
@@ -3810,6 +5091,14 @@
             <source>× </source>
             <translation>× </translation>
         </message>
+        <message>
+            <source>The last runs of this survey: their figures, what was set, and the way back</source>
+            <translation>本测量最近的处理：指标、设置，并可返回</translation>
+        </message>
+        <message>
+            <source>Earlier runs (%1)…</source>
+            <translation>历次处理 (%1)…</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::SurveySession</name>
@@ -3884,6 +5173,14 @@
         <message>
             <source>%1 % of the cells changed beyond 1.96 σ.</source>
             <translation>%1 % 的格网变化超出 1.96 σ。</translation>
+        </message>
+        <message>
+            <source>all settings back to their defaults</source>
+            <translation>所有设置恢复默认</translation>
+        </message>
+        <message>
+            <source>The settings of the run of %1 are back: process again to see its results.</source>
+            <translation>已恢复 %1 处理的设置：重新处理即可看到其结果。</translation>
         </message>
         <message>
             <source>Less %1: median %2, RMS %3.</source>
@@ -4033,6 +5330,34 @@
         <message>
             <source>Terrace edges</source>
             <translation>梯田边缘</translation>
+        </message>
+        <message>
+            <source>A click shows it</source>
+            <translation>单击即显示</translation>
+        </message>
+        <message>
+            <source>Point density</source>
+            <translation>点密度</translation>
+        </message>
+        <message>
+            <source>Source of heights</source>
+            <translation>高程来源</translation>
+        </message>
+        <message>
+            <source>%1 % measured</source>
+            <translation>%1 % 实测</translation>
+        </message>
+        <message>
+            <source>Accuracy</source>
+            <translation>精度</translation>
+        </message>
+        <message>
+            <source>Report</source>
+            <translation>报告</translation>
+        </message>
+        <message>
+            <source>The box shows or hides them</source>
+            <translation>方框控制显示或隐藏</translation>
         </message>
         <message>
             <source>%1, %2</source>

@@ -5,16 +5,21 @@
 #include <QDir>
 #include <QDockWidget>
 #include <QElapsedTimer>
+#include <QLineEdit>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QSettings>
 #include <QStandardPaths>
 #include <QTabWidget>
 #include <QTest>
+#include <QTreeView>
 #include <cstdio>
 
 #include "app/gui/desktop.hpp"
 #include "app/gui/language.hpp"
 #include "app/gui/new_survey_dialog.hpp"
 #include "app/gui/report_view.hpp"
+#include "app/gui/settings_dialog.hpp"
 #include "app/gui/terrain_view.hpp"
 #include "app/gui/theme.hpp"
 
@@ -63,6 +68,7 @@ QString suffixOf(Theme theme, QSize size, const QString& language) {
 
 void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size, const QString& suffix) {
     QSettings().clear();
+    QDir(QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation)).removeRecursively();
     QSettings().setValue("theme", theme == Theme::Dark ? "dark" : "light");
     applyTheme(theme);
     Desktop desktop;
@@ -139,6 +145,33 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
             QTest::qWait(50);
         }
     }
+    if (auto* tree = window.findChild<QTreeView*>("survey_tree")) {
+        tree->scrollToBottom();
+        camera.shoot("tree_results");
+    }
+    session.changeSetting("fusion.gnss.sigma_fixed_m", "0.05");
+    session.changeSetting("surface.method", "kriging");
+    camera.shoot("steps_changed");
+    auto* steps = window.findChild<QScrollArea*>("steps_scroll");
+    steps->verticalScrollBar()->setValue(steps->verticalScrollBar()->maximum());
+    camera.shoot("steps_check");
+    session.goBackTo(1);
+    QTest::qWait(50);
+    steps->verticalScrollBar()->setValue(steps->verticalScrollBar()->maximum());
+    camera.shoot("steps_figures");
+    window.findChild<QAction*>("runs")->trigger();
+    if (QWidget* dialog = QApplication::activeModalWidget()) {
+        camera.shoot("dialog_runs", dialog);
+        dialog->close();
+    }
+    window.findChild<QAction*>("settings")->trigger();
+    auto* settings = window.findChild<SettingsDialog*>();
+    camera.shoot("dialog_settings", settings);
+    settings->showStep(StepKind::Surface);
+    camera.shoot("dialog_settings_surface", settings);
+    settings->findChild<QLineEdit*>("setting_search")->setText("sigma gnss");
+    camera.shoot("dialog_settings_search", settings);
+    settings->close();
     // What a person did not save must not come back in the next picture.
     session.undoStack().setIndex(0);
     QTest::qWait(1000);

@@ -4,6 +4,7 @@
 #include <QClipboard>
 #include <QComboBox>
 #include <QDockWidget>
+#include <QGridLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListView>
@@ -39,8 +40,12 @@
 #include "app/gui/profile_plot.hpp"
 #include "app/gui/report_view.hpp"
 #include "app/gui/report_words.hpp"
+#include "app/gui/sample_surveys.hpp"
 #include "app/gui/setting_editor.hpp"
+#include "app/gui/setting_words.hpp"
+#include "app/gui/settings_dialog.hpp"
 #include "app/gui/start_page.hpp"
+#include "app/gui/steps_panel.hpp"
 #include "app/gui/survey_tree_model.hpp"
 #include "app/gui/terrain_view.hpp"
 #include "app/gui/theme.hpp"
@@ -89,17 +94,23 @@ class WindowTest : public QObject {
     void reportIsShownSavedAndPrinted();
     void settingsAreCheckedAndUndone();
     void sizeOfCellsIsAutoUntilOneIsEntered();
+    void allSettingsAreSearchedMarkedAndSetBack();
+    void fieldsOfTheStepsStandInOneColumn();
     void cancelStopsSoonAndKeepsWhatWasThere();
     void windowAnswersWhileItWorks();
     void unsavedChangesComeBackAfterTheProcessWasKilled();
     void changesOfTheLastMomentComeBack();
     void arrowKeysChooseInTheTree();
+    void resultsInTheTreeShowThemselves();
     void savedSettingsReplayedByTheCommandLineGiveTheSameBytes();
     void exportDialogRefusesWhatCannotBe();
     void themeAndLanguageSwitch();
     void badFilesAreErrorsInTheMessagesAndLoseNothing();
     void droppedFolderIsOpened();
     void earlierRunsCanBeGoneBackTo();
+    void earlierRunsOutliveTheProgram();
+    void runsOfReadOnlySurveysAndBrokenListsAreNoHarm();
+    void figuresStandBesideThoseOfTheRunBefore();
     void keysAloneSuffice();
     void droppedLogsAndMarksBecomeASurvey();
     void newSurveyDialogRefusesWhatCannotBe();
@@ -535,6 +546,93 @@ void WindowTest::sizeOfCellsIsAutoUntilOneIsEntered() {
     QCOMPARE(field->text(), QString());
 }
 
+void WindowTest::allSettingsAreSearchedMarkedAndSetBack() {
+    openSample();
+    action("settings").trigger();
+    auto* dialog = window_->findChild<SettingsDialog*>();
+    QVERIFY(dialog != nullptr);
+    const auto shown = [&] {
+        QStringList keys;
+        for (const SettingEditor* editor : dialog->findChildren<SettingEditor*>())
+            if (editor->isVisibleTo(dialog)) keys << editor->key();
+        return keys;
+    };
+    // Every setting but edits stands there once.
+    QStringList all = shown();
+    for (const ParameterInfo& info : knownParameters()) {
+        const QString key = QString::fromStdString(info.key);
+        QCOMPARE(all.count(key), key.startsWith("edits.") ? 0 : 1);
+    }
+    auto* search = dialog->findChild<QLineEdit*>("setting_search");
+    QTest::keyClicks(search, "gust");
+    QCOMPARE(shown(), (QStringList{"fusion.barometer.gust_sigma_m", "fusion.barometer.gust_correlation_s"}));
+    search->setText("STILL target");  // by meaning, in any order
+    QCOMPARE(shown(), QStringList{"fusion.stands.target_s"});
+    search->setText("surface.cell");  // by key
+    QCOMPARE(shown(), QStringList{"surface.cell_m"});
+    search->setText(QString::fromUtf8("阵风 长度"));  // in the other language
+    QCOMPARE(shown(), QStringList{"fusion.barometer.gust_correlation_s"});
+    search->setText("no such thing");
+    QVERIFY(shown().isEmpty());
+    search->clear();
+    // What differs from its default is marked, in the dialog and in the step, and can be set back.
+    auto* only = dialog->findChild<QCheckBox*>("only_changed");
+    QVERIFY(session().changeSetting("surface.method", "kriging"));
+    QVERIFY(session().changeSetting("fusion.robust.use", "false"));
+    QVERIFY2(only->text().contains("(2)"), qPrintable(only->text()));
+    only->setChecked(true);
+    QCOMPARE(shown(), (QStringList{"fusion.robust.use", "surface.method"}));
+    const auto marked = [&] {
+        const auto names = window_->findChildren<QLabel*>("settingName");
+        return std::count_if(names.begin(), names.end(),
+                             [](const QLabel* name) { return name->property("changed").toBool(); });
+    };
+    QCOMPARE(marked(), 3);  // the method stands in both
+    for (const SettingEditor* editor : dialog->findChildren<SettingEditor*>()) {
+        auto* reset = editor->findChild<QToolButton*>("reset");
+        QCOMPARE(reset->isVisibleTo(dialog), only->isChecked() && shown().contains(editor->key()));
+        if (editor->key() == "surface.method") QTest::mouseClick(reset, Qt::LeftButton);
+    }
+    QCOMPARE(session().settings().text("surface.method"), std::string("linear"));
+    QTest::mouseClick(dialog->findChild<QPushButton*>("reset_all"), Qt::LeftButton);
+    QCOMPARE(session().settings().text("fusion.robust.use"), std::string("true"));
+    QCOMPARE(marked(), 0);
+    action("undo").trigger();
+    QCOMPARE(session().settings().text("fusion.robust.use"), std::string("false"));
+    // A choice has a name to read and stores its word.
+    auto* method = dialog->findChild<QComboBox*>();
+    QCOMPARE(method->currentText(), QString("Terrawalk, all runs"));
+    method->setCurrentIndex(method->findData("ukf"));
+    QCOMPARE(session().settings().text("fusion.method"), std::string("ukf"));
+    for (const ParameterInfo& info : knownParameters()) {
+        const QString range = QString::fromStdString(info.range);
+        if (!range.contains(", ") || range.startsWith("[") || range.startsWith("true")) continue;
+        for (const QString& word : range.split(", ")) QVERIFY2(choiceWords(word) != word, qPrintable(word));
+    }
+}
+
+void WindowTest::fieldsOfTheStepsStandInOneColumn() {
+    for (const char* language : {"en", "zh_CN"}) {
+        applyLanguage(language);
+        desktop_ = std::make_unique<Desktop>();
+        window_ = &desktop_->window();
+        window_->resize(1280, 800);
+        window_->show();
+        openSample();
+        auto* steps = window_->findChild<StepsPanel*>();
+        QSet<int> left_px, right_px;
+        for (const SettingEditor* editor : steps->findChildren<SettingEditor*>()) {
+            const QPoint at = editor->mapTo(steps, QPoint());
+            left_px << at.x();
+            right_px << at.x() + editor->width();
+            for (const QLabel* name : steps->findChildren<QLabel*>("settingName"))
+                QVERIFY(name->sizeHint().width() <= name->width());
+        }
+        QCOMPARE(left_px.size(), 1);
+        QCOMPARE(right_px.size(), 1);
+    }
+}
+
 void WindowTest::cancelStopsSoonAndKeepsWhatWasThere() {
     window_->open(TERRAWALK_SOURCE_DIR "/sample_surveys/mango_orchard");
     QTRY_VERIFY_WITH_TIMEOUT(session().survey() && idle(), kLong_ms);
@@ -619,6 +717,40 @@ void WindowTest::arrowKeysChooseInTheTree() {
         if (!item.isEmpty() && item != first) return;
     }
     QFAIL("two items of the tree were to be chosen in turn");
+}
+
+void WindowTest::resultsInTheTreeShowThemselves() {
+    processed();
+    auto* tree = window_->findChild<QTreeView*>("survey_tree");
+    auto* views = window_->findChild<QTabWidget*>("views");
+    const auto row = [&](const char* id) {
+        const auto found = tree->model()->match(tree->model()->index(0, 0), SurveyTreeModel::IdRole, id, 1,
+                                                Qt::MatchExactly | Qt::MatchRecursive);
+        return found.isEmpty() ? QModelIndex() : found.front();
+    };
+    const auto click = [&](const QModelIndex& index) {
+        tree->scrollTo(index);
+        QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, tree->visualRect(index).center());
+    };
+    const std::tuple<const char*, int, RasterLayer> results[] = {{"uncertainty", 0, RasterLayer::Uncertainty},
+                                                                 {"mesh", 1, RasterLayer::Uncertainty},
+                                                                 {"density", 0, RasterLayer::Density},
+                                                                 {"accuracy", 3, RasterLayer::Density},
+                                                                 {"source", 0, RasterLayer::Source},
+                                                                 {"report", 4, RasterLayer::Source},
+                                                                 {"dem", 0, RasterLayer::Height}};
+    for (const auto& [id, view, layer] : results) {
+        QVERIFY2(row(id).isValid(), id);
+        click(row(id));
+        QCOMPARE(views->currentIndex(), view);
+        QCOMPARE(session().viewState().now().layer, layer);
+    }
+    // By keys: arrows only pass over, enter shows.
+    tree->setFocus();
+    tree->setCurrentIndex(row("mesh"));
+    QCOMPARE(views->currentIndex(), 0);
+    QTest::keyClick(tree, Qt::Key_Return);
+    QCOMPARE(views->currentIndex(), 1);
 }
 
 void WindowTest::savedSettingsReplayedByTheCommandLineGiveTheSameBytes() {
@@ -746,6 +878,102 @@ void WindowTest::earlierRunsCanBeGoneBackTo() {
     action("undo").trigger();
     QCOMPARE(session().settings().config().surface.cell_m, 1.0);
     QVERIFY(session().outdated());
+}
+
+void WindowTest::earlierRunsOutliveTheProgram() {
+    processed();
+    QVERIFY(session().changeSetting("surface.cell_m", "1"));
+    QVERIFY(session().changeSetting("surface.method", "nearest"));
+    processed();
+    QVERIFY(fs::exists((sample_ + "/survey.runs.json").toStdString()));
+    const RunFigures figures = session().runs().front().figures;
+    window_->close();
+    desktop_ = std::make_unique<Desktop>();
+    window_ = &desktop_->window();
+    window_->show();
+    QApplication::setActiveWindow(window_);
+    openSample();
+    QVERIFY(!session().products());
+    QCOMPARE(session().runs().size(), std::size_t{2});
+    QCOMPARE(session().runs().front().figures, figures);
+    // What was not saved came back as well; here the runs are what matters.
+    QCOMPARE(session().settings().config().surface.cell_m, 1.0);
+    QTest::mouseClick(window_->findChild<QPushButton*>("step_history"), Qt::LeftButton);
+    QWidget* dialog = QApplication::activeModalWidget();
+    QVERIFY(dialog != nullptr);
+    auto* runs = dialog->findChild<QTableWidget*>("runs_table");
+    QCOMPARE(runs->rowCount(), 2);
+    QVERIFY(runs->item(0, runs->columnCount() - 1)->text().contains("Nearest point"));
+    QCOMPARE(runs->item(1, 1)->text(), QString::number(figures.at("height_rmse_m"), 'f', 3));
+    runs->selectRow(1);
+    auto* differences = dialog->findChild<QTableWidget*>("differences_table");
+    QCOMPARE(differences->rowCount(), 2);
+    QCOMPARE(differences->item(1, 1)->text(), QString("auto"));
+    QCOMPARE(differences->item(1, 2)->text(), QString("1.0 m"));
+    QVERIFY(!dialog->findChild<QPushButton*>("compare_run")->isEnabled());  // its surface is gone
+    QTest::mouseClick(dialog->findChild<QPushButton*>("primary"), Qt::LeftButton);
+    QCOMPARE(session().settings().config().surface.cell_m, 0.0);
+    QCOMPARE(session().settings().text("surface.method"), std::string("linear"));
+    QVERIFY(messages().contains("process again"));
+    action("undo").trigger();
+    QCOMPARE(session().settings().config().surface.cell_m, 1.0);
+    // The first run of today has that of yesterday to be compared with, and joins the list.
+    processed();
+    QCOMPARE(session().runs().size(), std::size_t{3});
+    QVERIFY(session().history().front().before.has_value());
+    // One whose results are still there shows them.
+    QVERIFY(session().changeSetting("surface.cell_m", "2"));
+    const auto first = session().products();
+    processed();
+    session().goBackToRun(2);
+    QCOMPARE(session().products(), first);
+}
+
+void WindowTest::runsOfReadOnlySurveysAndBrokenListsAreNoHarm() {
+    window_->open(TERRAWALK_SOURCE_DIR "/sample_surveys/quick_plot", true);
+    QTRY_VERIFY_WITH_TIMEOUT(session().products() && idle(), kLong_ms);
+    QVERIFY(!fs::exists(TERRAWALK_SOURCE_DIR "/sample_surveys/quick_plot/survey.runs.json"));
+    QVERIFY(fs::exists(session().runsFile()));
+    QVERIFY(text(session().runsFile())
+                .startsWith(QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation)));
+    QFile broken(sample_ + "/survey.runs.json");
+    QVERIFY(broken.open(QIODevice::WriteOnly));
+    broken.write("{\"format\"");
+    broken.close();
+    openSample();
+    QTRY_COMPARE(text(session().path()), sample_);
+    QVERIFY(messages().contains("survey.runs.json"));
+    QVERIFY(session().runs().empty());
+    QVERIFY(!action("runs").isEnabled());
+}
+
+void WindowTest::figuresStandBesideThoseOfTheRunBefore() {
+    processed();
+    auto* table = window_->findChild<QWidget*>("figure_table");
+    QVERIFY(!table->isVisibleTo(window_));
+    const double before_m = session().runs().back().figures.at("height_rmse_m");
+    QVERIFY(session().changeSetting("surface.method", "nearest"));
+    processed();
+    const double now_m = session().runs().back().figures.at("height_rmse_m");
+    QVERIFY(now_m > before_m);
+    QVERIFY(table->isVisibleTo(window_));
+    auto* grid = qobject_cast<QGridLayout*>(table->layout());
+    const auto cell = [&](int row, int column) {
+        return qobject_cast<QLabel*>(grid->itemAtPosition(row, column)->widget());
+    };
+    QCOMPARE(cell(1, 0)->text(), QString("Height RMSE (m)"));
+    QCOMPARE(cell(1, 1)->text(), QString::number(before_m, 'f', 3));
+    QCOMPARE(cell(1, 2)->text(), QString::number(now_m, 'f', 3));
+    QVERIFY(cell(1, 3)->text().startsWith('+'));
+    QCOMPARE(cell(1, 4)->text(), QString(QChar(0x2717)));
+    QCOMPARE(cell(1, 4)->toolTip(), QString("worse"));
+    // Nothing is cut off, and numbers end in one line.
+    for (int row = 1; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column)
+            QVERIFY(cell(row, column)->width() >= cell(row, column)->sizeHint().width());
+        QCOMPARE(cell(row, 1)->geometry().right(), cell(1, 1)->geometry().right());
+    }
+    QVERIFY(table->width() <= table->parentWidget()->width());
 }
 
 void WindowTest::keysAloneSuffice() {
@@ -1013,7 +1241,7 @@ void WindowTest::tuningRefusesWhatItCannotDoAndIsPlotted() {
 
 void WindowTest::dialogsCloseAndReopen() {
     processed();
-    for (const char* name : {"shortcuts", "about", "export", "new"}) {
+    for (const char* name : {"shortcuts", "about", "export", "runs", "new"}) {
         for (int time = 0; time < 2; ++time) {
             action(name).trigger();
             QWidget* dialog = QApplication::activeModalWidget();
@@ -1166,6 +1394,8 @@ void WindowTest::chineseKnowsSettingsStepsAndSentences() {
     for (const ParameterInfo& info : knownParameters()) {
         const QString label = settingLabel(QString::fromStdString(info.key));
         QVERIFY2(isChinese(label), qPrintable(label));
+        const QString meaning = settingMeaning(QString::fromStdString(info.key));
+        QVERIFY2(isChinese(meaning), qPrintable(meaning));
     }
     const SurveyReport& report = session().products()->report;
     std::vector<std::string> sentences;

@@ -1,0 +1,179 @@
+#include "app/gui/runs_dialog.hpp"
+
+#include <QDialogButtonBox>
+#include <QHeaderView>
+#include <QLabel>
+#include <QPushButton>
+#include <QTableWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "app/gui/accuracy_words.hpp"
+#include "app/gui/setting_editor.hpp"
+#include "app/gui/survey_session.hpp"
+#include "app/gui/theme.hpp"
+
+namespace terrawalk::gui {
+
+namespace {
+
+QString valueIn(const RunSettings& settings, const QString& key) {
+    return settingValueWords(key, QString::fromStdString(settings.text(key.toStdString())));
+}
+
+QTableWidgetItem* cell(const QString& text, bool number = false) {
+    auto* item = new QTableWidgetItem(text);
+    item->setToolTip(text);
+    item->setTextAlignment((number ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+    return item;
+}
+
+QTableWidget* table(const QString& name, const QString& accessible_name) {
+    auto* made = new QTableWidget;
+    made->setObjectName(name);
+    made->setAccessibleName(accessible_name);
+    made->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    made->setSelectionBehavior(QAbstractItemView::SelectRows);
+    made->setSelectionMode(QAbstractItemView::SingleSelection);
+    made->setTabKeyNavigation(false);
+    made->setShowGrid(false);
+    made->verticalHeader()->hide();
+    made->verticalHeader()->setDefaultSectionSize(28);
+    made->horizontalHeader()->setHighlightSections(false);
+    return made;
+}
+
+void setHeads(QTableWidget& table, const QStringList& heads, int first_number, int numbers) {
+    table.setColumnCount(static_cast<int>(heads.size()));
+    table.setHorizontalHeaderLabels(heads);
+    for (int column = 0; column < table.columnCount(); ++column) {
+        const bool number = column >= first_number && column < first_number + numbers;
+        table.horizontalHeaderItem(column)->setTextAlignment((number ? Qt::AlignRight : Qt::AlignLeft) |
+                                                             Qt::AlignVCenter);
+    }
+}
+
+}  // namespace
+
+RunsDialog::RunsDialog(SurveySession& session, QWidget* parent) : QDialog(parent), session_(session) {
+    setObjectName("runs_dialog");
+    setWindowTitle(tr("Earlier runs"));
+    resize(960, 560);
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(2 * kGrid_px, 2 * kGrid_px, 2 * kGrid_px, 2 * kGrid_px);
+    column->setSpacing(kGrid_px);
+    column->addWidget(buildRuns(), 3);
+    what_ = new QLabel;
+    what_->setObjectName("cardTitle");
+    column->addWidget(what_);
+    column->addWidget(buildDifferences(), 2);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
+    compare_ = buttons->addButton(tr("Compare heights"), QDialogButtonBox::ActionRole);
+    compare_->setObjectName("compare_run");
+    go_back_ = buttons->addButton(tr("Go back to this run"), QDialogButtonBox::ActionRole);
+    go_back_->setObjectName("primary");
+    column->addWidget(buttons);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    connect(go_back_, &QPushButton::clicked, this, [this] {
+        session_.goBackToRun(chosen());
+        accept();
+    });
+    connect(compare_, &QPushButton::clicked, this, [this] {
+        session_.compareWith(*session_.resultsOf(chosen()));
+        accept();
+    });
+    connect(runs_, &QTableWidget::itemSelectionChanged, this, &RunsDialog::showChosen);
+    runs_->selectRow(runs_->rowCount() > 1 ? 1 : 0);  // the one before the last
+}
+
+QTableWidget* RunsDialog::buildRuns() {
+    const auto& runs = session_.runs();
+    for (const FigureKind& kind : kFigureKinds) {
+        if (kind.better == Better::Neither) continue;
+        if (std::any_of(runs.begin(), runs.end(),
+                        [&](const RunSummary& run) { return run.figures.contains(kind.key); }))
+            kinds_.push_back(kind);
+    }
+    runs_ = table("runs_table", tr("Earlier runs"));
+    QStringList heads{tr("Run")};
+    for (const FigureKind& kind : kinds_) heads << figureWords(kind);
+    heads << tr("Set otherwise than in the run before");
+    setHeads(*runs_, heads, 1, static_cast<int>(kinds_.size()));
+    runs_->setRowCount(static_cast<int>(runs.size()));
+    for (std::size_t run = 0; run < runs.size(); ++run) addRun(run);
+    runs_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    runs_->horizontalHeader()->setSectionResizeMode(runs_->columnCount() - 1, QHeaderView::Stretch);
+    return runs_;
+}
+
+QTableWidget* RunsDialog::buildDifferences() {
+    differences_ = table("differences_table", tr("Settings that differ from those of now"));
+    differences_->setSelectionMode(QAbstractItemView::NoSelection);
+    setHeads(*differences_, {tr("Setting"), tr("In that run"), tr("Now")}, 1, 2);
+    differences_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    differences_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
+    return differences_;
+}
+
+void RunsDialog::addRun(std::size_t run) {
+    const RunSummary& one = session_.runs()[run];
+    const int row = static_cast<int>(session_.runs().size() - 1 - run);
+    auto* when = cell(isShown(run) ? tr("%1, shown").arg(timeOfRun(one.when)) : timeOfRun(one.when));
+    when->setToolTip(tr("%1, by %2").arg(one.when.toString("yyyy-MM-dd HH:mm:ss"), one.program));
+    runs_->setItem(row, 0, when);
+    for (std::size_t i = 0; i < kinds_.size(); ++i) {
+        const auto value = one.figures.find(kinds_[i].key);
+        const QString words = value == one.figures.end() ? "–" : figureText(kinds_[i], value->second);
+        runs_->setItem(row, static_cast<int>(i) + 1, cell(words, true));
+    }
+    runs_->setItem(row, runs_->columnCount() - 1, cell(changesSinceTheRunBefore(run)));
+}
+
+QString RunsDialog::changesSinceTheRunBefore(std::size_t run) const {
+    const auto& runs = session_.runs();
+    if (run == 0) return {};
+    QStringList words;
+    for (const std::string& name : runs[run].settings.differences(runs[run - 1].settings)) {
+        const QString key = QString::fromStdString(name);
+        words << tr("%1: %2").arg(settingTitle(key), valueIn(runs[run].settings, key));
+    }
+    return words.isEmpty() ? tr("nothing") : words.join(tr("; "));
+}
+
+std::size_t RunsDialog::chosen() const {
+    const int row = std::max(0, runs_->currentRow());
+    return session_.runs().size() - 1 - static_cast<std::size_t>(row);
+}
+
+bool RunsDialog::isShown(std::size_t run) const {
+    const auto results = session_.resultsOf(run);
+    return results && *results == session_.shownRun();
+}
+
+void RunsDialog::showChosen() {
+    const std::size_t run = chosen();
+    const RunSettings& then = session_.runs()[run].settings;
+    const auto keys = session_.settings().differences(then);
+    what_->setText(keys.empty() ? tr("Its settings are those of now.")
+                                : tr("Settings that differ from those of now"));
+    differences_->setRowCount(static_cast<int>(keys.size()));
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const QString key = QString::fromStdString(keys[i]);
+        const int row = static_cast<int>(i);
+        auto* name = cell(settingTitle(key));
+        name->setToolTip(key);
+        differences_->setItem(row, 0, name);
+        differences_->setItem(row, 1, cell(valueIn(then, key), true));
+        differences_->setItem(row, 2, cell(valueIn(session_.settings(), key), true));
+    }
+    go_back_->setEnabled(!session_.busy() && (!keys.empty() || !isShown(run)));
+    go_back_->setToolTip(
+        session_.resultsOf(run)
+            ? tr("Shows its results and takes its settings over; undo brings yours back")
+            : tr("Takes its settings over, undo brings yours back; process again to see its results"));
+    compare_->setEnabled(!session_.busy() && session_.resultsOf(run) && !isShown(run));
+    compare_->setToolTip(
+        tr("How the heights changed since, as a layer; for runs since the survey was opened"));
+}
+
+}  // namespace terrawalk::gui

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <QDialog>
+#include <vector>
+
+#include "app/pipeline/run_history.hpp"
+
+class QLabel;
+class QPushButton;
+class QTableWidget;
+
+namespace terrawalk::gui {
+
+class SurveySession;
+
+/// The last runs of a survey, the newest above: their figures and what was set; goes back to one.
+class RunsDialog : public QDialog {
+    Q_OBJECT
+  public:
+    explicit RunsDialog(SurveySession& session, QWidget* parent = nullptr);
+
+  private:
+    QTableWidget* buildRuns();
+    QTableWidget* buildDifferences();
+    void addRun(std::size_t run);
+    void showChosen();
+    [[nodiscard]] std::size_t chosen() const;
+    [[nodiscard]] bool isShown(std::size_t run) const;
+    [[nodiscard]] QString changesSinceTheRunBefore(std::size_t run) const;
+    SurveySession& session_;
+    std::vector<FigureKind> kinds_;  ///< a column each
+    QTableWidget* runs_ = nullptr;
+    QTableWidget* differences_ = nullptr;
+    QLabel* what_ = nullptr;
+    QPushButton* go_back_ = nullptr;
+    QPushButton* compare_ = nullptr;
+};
+
+}  // namespace terrawalk::gui

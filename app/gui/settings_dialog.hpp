@@ -1,0 +1,61 @@
+#pragma once
+
+#include <QDialog>
+#include <vector>
+
+#include "app/gui/steps.hpp"
+
+class QCheckBox;
+class QLabel;
+class QLineEdit;
+class QListWidget;
+class QPushButton;
+class QScrollArea;
+
+namespace terrawalk::gui {
+
+class SettingRow;
+class SurveySession;
+
+/// All settings but edits, group by group, with a search and a mark on what has not its default. Stays open
+/// beside the window.
+class SettingsDialog : public QDialog {
+    Q_OBJECT
+  public:
+    explicit SettingsDialog(SurveySession& session, QWidget* parent = nullptr);
+    /// Scrolls to the settings of a step.
+    void showStep(StepKind step);
+
+  private:
+    /// A group below its heading.
+    struct Group {
+        QString prefix;
+        QString title;
+        StepKind step = StepKind::Fuse;
+        QWidget* heading = nullptr;
+        std::vector<SettingRow*> rows;
+        int list_row = 0;
+        int step_row = 0;  ///< of the step above it
+    };
+    void build();
+    QWidget* buildList();
+    QWidget* buildSearch();
+    QWidget* buildFooter();
+    void addStep(const Step& step);
+    void addGroup(const Step& step, const QString& prefix, int step_row, QWidget& page);
+    void filter();
+    void showChanged();
+    void scrollTo(int list_row);
+    void followScroll();
+    SurveySession& session_;
+    std::vector<Group> groups_;
+    QLineEdit* search_ = nullptr;
+    QCheckBox* only_changed_ = nullptr;
+    QListWidget* list_ = nullptr;
+    QScrollArea* scroll_ = nullptr;
+    QLabel* nothing_ = nullptr;
+    QPushButton* reset_ = nullptr;
+    bool jumping_ = false;  ///< to a group that was chosen: the list need not follow
+};
+
+}  // namespace terrawalk::gui
