@@ -206,7 +206,7 @@
         </message>
         <message>
             <source>The log of run %1 has no readings of this sensor.</source>
-            <translation>航次 %1 的记录中没有该传感器的读数。</translation>
+            <translation>测线 %1 的记录中没有该传感器的读数。</translation>
         </message>
         <message>
             <source>GNSS, as logged</source>
@@ -242,7 +242,7 @@
         </message>
         <message>
             <source>This run has no ground points: its range finder gave nothing.</source>
-            <translation>该航次没有地面点：测距仪无输出。</translation>
+            <translation>该测线没有地面点：测距仪无输出。</translation>
         </message>
         <message>
             <source>Mark</source>
@@ -406,7 +406,7 @@
         </message>
         <message>
             <source>Fused run</source>
-            <translation>融合航次</translation>
+            <translation>融合测线</translation>
         </message>
         <message>
             <source>Errors at marks</source>
@@ -418,7 +418,7 @@
         </message>
         <message>
             <source>%1, run %2</source>
-            <translation>%1，航次 %2</translation>
+            <translation>%1，测线 %2</translation>
         </message>
         <message>
             <source>Time of the log</source>
@@ -679,7 +679,7 @@
         </message>
         <message>
             <source>run left out</source>
-            <translation>航次排除</translation>
+            <translation>测线排除</translation>
         </message>
         <message>
             <source>statistical outlier</source>
@@ -939,7 +939,7 @@
         </message>
         <message>
             <source>no known mark to zero the barometer on: it is tied to the median GNSS height of the run</source>
-            <translation>没有可供气压计归零的标志点：取该个航次 GNSS 高程的中位数</translation>
+            <translation>没有可供气压计归零的标志点：取该个测线 GNSS 高程的中位数</translation>
         </message>
         <message>
             <source>no barometer in use: GNSS height is used whatever the fix</source>
@@ -951,7 +951,7 @@
         </message>
         <message>
             <source>nothing measures height there, the walk is taken to climb little</source>
-            <translation>此处没有高程观测，假定航次起伏很小</translation>
+            <translation>此处没有高程观测，假定测线起伏很小</translation>
         </message>
         <message>
             <source>nothing in the log measures height: it is held near that of the start</source>
@@ -1247,11 +1247,11 @@
         </message>
         <message>
             <source>Run %1 has no records for %2 s: the track there is a guess.</source>
-            <translation>航次 %1 有 %2 s 没有记录：该处轨迹是推测的。</translation>
+            <translation>测线 %1 有 %2 s 没有记录：该处轨迹是推测的。</translation>
         </message>
         <message>
             <source>%1 (runs %2)</source>
-            <translation>%1（航次 %2）</translation>
+            <translation>%1（测线 %2）</translation>
         </message>
         <message>
             <source>no epoch while the array stood on %1</source>
@@ -1283,7 +1283,7 @@
         </message>
         <message>
             <source>zero point: mean GNSS position of the ground where %1 of %2 walks start, %3 m apart at most; say where it is if you know it better</source>
-            <translation>零点：%2 个航次中 %1 次起点处地面的 GNSS 平均位置，彼此相距至多 %3 m；如有更准确的坐标请填入</translation>
+            <translation>零点：%2 个测线中 %1 次起点处地面的 GNSS 平均位置，彼此相距至多 %3 m；如有更准确的坐标请填入</translation>
         </message>
         <message>
             <source>%1 is passed over: %2</source>
@@ -1291,23 +1291,23 @@
         </message>
         <message>
             <source>the fixed-point run %1 has no target mark; name the mark, or make it an area walk</source>
-            <translation>定点航次 %1 没有终点标志；请指定标志点，或改为面积航次</translation>
+            <translation>定点测线 %1 没有终点标志；请指定标志点，或改为面积测线</translation>
         </message>
         <message>
             <source>the fixed-point run %1 has no start mark; name the mark, or make it an area walk</source>
-            <translation>定点航次 %1 没有起点标志；请指定标志点，或改为面积航次</translation>
+            <translation>定点测线 %1 没有起点标志；请指定标志点，或改为面积测线</translation>
         </message>
         <message>
             <source>two runs are named %1; give each run its own name</source>
-            <translation>有两个航次都叫 %1；请各起一个名字</translation>
+            <translation>有两个测线都叫 %1；请各起一个名字</translation>
         </message>
         <message>
             <source>%1 cannot be the name of a run; use letters, digits, '-', '_' and '.', the first one no '.'</source>
-            <translation>%1 不能作为航次名；请用字母、数字、“-”、“_”和“.”，且不以“.”开头</translation>
+            <translation>%1 不能作为测线名；请用字母、数字、“-”、“_”和“.”，且不以“.”开头</translation>
         </message>
         <message>
             <source>run %1 names the mark %2, which is not known; correct the name, or give the table with that mark</source>
-            <translation>航次 %1 的标志点 %2 未知；请更正名称，或提供含该点的表</translation>
+            <translation>测线 %1 的标志点 %2 未知；请更正名称，或提供含该点的表</translation>
         </message>
     </context>
     <context>
@@ -1369,7 +1369,7 @@
         </message>
         <message>
             <source>stands tie fixed targets</source>
-            <translation>定点航次的终点也作约束</translation>
+            <translation>定点测线的终点也作约束</translation>
         </message>
         <message>
             <source>unscented alpha</source>
@@ -1913,7 +1913,7 @@
         </message>
         <message>
             <source>fixed point runs</source>
-            <translation>使用定点航次</translation>
+            <translation>使用定点测线</translation>
         </message>
         <message>
             <source>longest edge</source>
@@ -2165,7 +2165,7 @@
         </message>
         <message>
             <source>runs</source>
-            <translation>剔除的航次</translation>
+            <translation>剔除的测线</translation>
         </message>
         <message>
             <source>marks</source>
@@ -2327,7 +2327,7 @@
         </message>
         <message>
             <source>Start of a run</source>
-            <translation>航次起始</translation>
+            <translation>测线起始</translation>
         </message>
         <message>
             <source>GNSS</source>
@@ -2434,7 +2434,7 @@
         <name>SettingMeaning</name>
         <message>
             <source>raw: sensors as they are; ukf: 9-state unscented Kalman filter with gate and smoother; aukf: the method of paper 000 as it is; terrawalk: filter with error states, then one adjustment of all runs with their crossovers</source>
-            <translation>raw：直接使用传感器；ukf：带门限和平滑的 9 状态无迹卡尔曼滤波；aukf：论文 000 的原方法；terrawalk：带误差状态的滤波，再对所有航次连同交叉点做整体平差</translation>
+            <translation>raw：直接使用传感器；ukf：带门限和平滑的 9 状态无迹卡尔曼滤波；aukf：论文 000 的原方法；terrawalk：带误差状态的滤波，再对所有测线连同交叉点做整体平差</translation>
         </message>
         <message>
             <source>Rauch-Tung-Striebel pass after the filter</source>
@@ -2450,7 +2450,7 @@
         </message>
         <message>
             <source>targets of fixed-point runs hold the estimator; false: they only show its error</source>
-            <translation>定点航次的终点约束估计；false：只用来显示其误差</translation>
+            <translation>定点测线的终点约束估计；false：只用来显示其误差</translation>
         </message>
         <message>
             <source>spread of the sigma points; used by the yaw row only</source>
@@ -2778,11 +2778,11 @@
         </message>
         <message>
             <source>a larger sigma ends the run with an error</source>
-            <translation>σ 更大时该航次以错误结束</translation>
+            <translation>σ 更大时该测线以错误结束</translation>
         </message>
         <message>
             <source>a track farther from GNSS ends the run with an error</source>
-            <translation>轨迹离 GNSS 更远时该航次以错误结束</translation>
+            <translation>轨迹离 GNSS 更远时该测线以错误结束</translation>
         </message>
         <message>
             <source>after this time</source>
@@ -2790,7 +2790,7 @@
         </message>
         <message>
             <source>a larger share of rejected GNSS positions ends the run with an error</source>
-            <translation>被剔除的 GNSS 位置占比更大时该航次以错误结束</translation>
+            <translation>被剔除的 GNSS 位置占比更大时该测线以错误结束</translation>
         </message>
         <message>
             <source>rejected GNSS positions before their share counts</source>
@@ -2994,7 +2994,7 @@
         </message>
         <message>
             <source>use the ground points of fixed-point runs as well</source>
-            <translation>也使用定点航次的地面点</translation>
+            <translation>也使用定点测线的地面点</translation>
         </message>
         <message>
             <source>triangles with a longer edge are left out; 0: from the points</source>
@@ -3070,15 +3070,15 @@
         </message>
         <message>
             <source>compass error A sin yaw + B cos yaw, shared by all runs</source>
-            <translation>罗盘误差 A sin yaw + B cos yaw，各航次共有</translation>
+            <translation>罗盘误差 A sin yaw + B cos yaw，各测线共有</translation>
         </message>
         <message>
             <source>by which a run differs from that</source>
-            <translation>单个航次与之的差异</translation>
+            <translation>单个测线与之的差异</translation>
         </message>
         <message>
             <source>error of scale of the optical flow, constant in a run</source>
-            <translation>光流的比例误差，一个航次内不变</translation>
+            <translation>光流的比例误差，一个测线内不变</translation>
         </message>
         <message>
             <source>half the difference of the scales of forward and left</source>
@@ -3086,11 +3086,11 @@
         </message>
         <message>
             <source>bias of the gyro, constant in a run</source>
-            <translation>陀螺零偏，一个航次内不变</translation>
+            <translation>陀螺零偏，一个测线内不变</translation>
         </message>
         <message>
             <source>error of scale of the gyro, constant in a run</source>
-            <translation>陀螺的比例误差，一个航次内不变</translation>
+            <translation>陀螺的比例误差，一个测线内不变</translation>
         </message>
         <message>
             <source>by which a turn summed up from the gyro errs</source>
@@ -3174,7 +3174,7 @@
         </message>
         <message>
             <source>passes of one run are at least so far apart in time</source>
-            <translation>同一航次的两次经过至少相隔的时间</translation>
+            <translation>同一测线的两次经过至少相隔的时间</translation>
         </message>
         <message>
             <source>of the weights that fall with the distance from a crossover</source>
@@ -3246,7 +3246,7 @@
         </message>
         <message>
             <source>runs that are left out</source>
-            <translation>剔除的航次</translation>
+            <translation>剔除的测线</translation>
         </message>
         <message>
             <source>marks that are left out: neither control nor check</source>
@@ -3371,7 +3371,7 @@
         </message>
         <message>
             <source>Tracks by run</source>
-            <translation>轨迹按航次</translation>
+            <translation>轨迹按测线</translation>
         </message>
         <message>
             <source>Tracks by fix</source>
@@ -3946,7 +3946,7 @@
         </message>
         <message>
             <source>Plots of the sensors, the fused runs, errors at marks and searches for parameters. Drag along the time axis selects a stretch in all views.</source>
-            <translation>传感器、融合航次、标志点误差和参数搜索的图表。沿时间轴拖动可在所有视图中选中一段。</translation>
+            <translation>传感器、融合测线、标志点误差和参数搜索的图表。沿时间轴拖动可在所有视图中选中一段。</translation>
         </message>
         <message>
             <source>How far the results lie from the marks: figures, groups of errors, what they say and what they cannot say.</source>
@@ -3982,7 +3982,7 @@
         </message>
         <message>
             <source>Runs, marks, edits and results. The box shows or hides a thing in all views; a click on a result shows it; the right button leaves a run or a mark out, or takes an edit back.</source>
-            <translation>航次、标志点、编辑和成果。方框控制在所有视图中显示或隐藏；单击成果即显示；右键可剔除航次或标志点，或撤回编辑。</translation>
+            <translation>测线、标志点、编辑和成果。方框控制在所有视图中显示或隐藏；单击成果即显示；右键可剔除测线或标志点，或撤回编辑。</translation>
         </message>
         <message>
             <source>&amp;Units and numbers</source>
@@ -4189,11 +4189,11 @@
         </message>
         <message>
             <source>Runs</source>
-            <translation>航次</translation>
+            <translation>测线</translation>
         </message>
         <message>
             <source>Run</source>
-            <translation>航次</translation>
+            <translation>测线</translation>
         </message>
         <message>
             <source>Log</source>
@@ -4273,11 +4273,11 @@
         </message>
         <message>
             <source>area walk</source>
-            <translation>面积航次</translation>
+            <translation>面积测线</translation>
         </message>
         <message>
             <source>fixed-point run</source>
-            <translation>定点航次</translation>
+            <translation>定点测线</translation>
         </message>
         <message>
             <source>–</source>
@@ -4384,7 +4384,7 @@
         </message>
         <message>
             <source>Run, time</source>
-            <translation>航次，时间</translation>
+            <translation>测线，时间</translation>
         </message>
         <message>
             <source>height</source>
@@ -4495,11 +4495,11 @@
         </message>
         <message>
             <source>Run</source>
-            <translation>航次</translation>
+            <translation>测线</translation>
         </message>
         <message>
             <source>The run that is plotted</source>
-            <translation>绘制的航次</translation>
+            <translation>绘制的测线</translation>
         </message>
         <message>
             <source>Readings to exclude</source>
@@ -4519,7 +4519,7 @@
         </message>
         <message>
             <source>Run %1</source>
-            <translation>航次 %1</translation>
+            <translation>测线 %1</translation>
         </message>
         <message>
             <source>Open a survey to see its plots here.</source>
@@ -4602,7 +4602,7 @@
         </message>
         <message>
             <source>Its run, time</source>
-            <translation>航次，时间</translation>
+            <translation>测线，时间</translation>
         </message>
         <message>
             <source>Its height</source>
@@ -5016,7 +5016,7 @@
         <message numerus="yes">
             <source>%n run(s)</source>
             <translation>
-                <numerusform>%n 个航次</numerusform>
+                <numerusform>%n 个测线</numerusform>
             </translation>
         </message>
         <message>
@@ -5219,7 +5219,7 @@
         </message>
         <message>
             <source>Runs</source>
-            <translation>航次</translation>
+            <translation>测线</translation>
         </message>
         <message>
             <source>left out</source>
@@ -5231,11 +5231,11 @@
         </message>
         <message>
             <source>Area run %1</source>
-            <translation>面积航次 %1</translation>
+            <translation>面积测线 %1</translation>
         </message>
         <message>
             <source>Fixed-point run %1</source>
-            <translation>定点航次 %1</translation>
+            <translation>定点测线 %1</translation>
         </message>
         <message>
             <source>, starts on %1</source>
