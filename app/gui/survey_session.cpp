@@ -169,9 +169,9 @@ void SurveySession::finishRun(FinishedRun run) {
     Q_EMIT told(MessageKind::Done, tr("Processed.") + figure + (change.isEmpty() ? QString() : " " + change));
 }
 
-void SurveySession::tune(OptimiserKind optimiser, std::size_t repeats) {
+void SurveySession::tune(const TuneOptions& options, std::size_t repeats) {
     if (!survey_) return;
-    job_.start([this, survey = survey_, config = settings_.config(), optimiser, repeats](
+    job_.start([this, survey = survey_, config = settings_.config(), options, repeats](
                    Progress& progress, const std::stop_token& stop) {
         auto edited = withEdits(*survey, config.edits);
         std::vector<TuneTrace> traces;
@@ -179,10 +179,9 @@ void SurveySession::tune(OptimiserKind optimiser, std::size_t repeats) {
         for (std::size_t r = 0; edited && r < repeats; ++r) {
             const auto n = static_cast<double>(repeats), done = static_cast<double>(r);
             PartialProgress part(progress, done / n, (done + 1.0) / n);
-            TuneOptions options;
-            options.optimiser = optimiser;
-            options.seed = config.seed + r;
-            auto tuned = tunedWithTrace(*edited, config, options, part, stop);
+            TuneOptions search = options;
+            search.seed = config.seed + r;
+            auto tuned = tunedWithTrace(*edited, config, search, part, stop);
             if (tuned) traces.push_back(tuned->trace);
             if (!tuned || !best || tuned->loss < best->loss) best = std::move(tuned);
             if (!best) break;

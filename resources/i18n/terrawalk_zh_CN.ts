@@ -2442,6 +2442,14 @@
             <source>DEM, ESRI ASCII</source>
             <translation>DEM，ESRI ASCII</translation>
         </message>
+        <message>
+            <source>Also points that were not used, with their reasons</source>
+            <translation>也包括未使用的点及其原因</translation>
+        </message>
+        <message>
+            <source>For the formats of points; without it, only those that the surface was made of</source>
+            <translation>用于点的格式；不选则只含构成曲面的点</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::MainWindow</name>
@@ -3779,6 +3787,38 @@
         <message>
             <source>Earlier runs (%1)…</source>
             <translation>历次处理 (%1)…</translation>
+        </message>
+        <message>
+            <source>Effort of the search</source>
+            <translation>搜索工作量</translation>
+        </message>
+        <message>
+            <source>Population</source>
+            <translation>种群</translation>
+        </message>
+        <message>
+            <source>Candidates that the search keeps; auto: 100 for aukf, 8 for other methods</source>
+            <translation>搜索保留的候选数；自动：aukf 为 100，其他方法为 8</translation>
+        </message>
+        <message>
+            <source>Iterations</source>
+            <translation>迭代</translation>
+        </message>
+        <message>
+            <source>How often each of them is tried anew; auto: 1000 for aukf, 6 for other methods</source>
+            <translation>每个候选重新尝试的次数；自动：aukf 为 1000，其他方法为 6</translation>
+        </message>
+        <message>
+            <source>auto</source>
+            <translation>自动</translation>
+        </message>
+        <message>
+            <source>Restarts</source>
+            <translation>重启</translation>
+        </message>
+        <message>
+            <source>Independent searches within one, each of that effort; the best is taken</source>
+            <translation>一次搜索内的独立重启次数，每次工作量相同；取最好的</translation>
         </message>
     </context>
     <context>

@@ -12,6 +12,7 @@
 #include <QStandardPaths>
 #include <QTabWidget>
 #include <QTest>
+#include <QToolButton>
 #include <QTreeView>
 #include <cstdio>
 
@@ -152,6 +153,9 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
     session.changeSetting("fusion.gnss.sigma_fixed_m", "0.05");
     session.changeSetting("surface.method", "kriging");
     camera.shoot("steps_changed");
+    for (QToolButton* fold : window.findChildren<QToolButton*>("further"))
+        if (fold->isCheckable()) fold->click();
+    camera.shoot("steps_search");
     auto* steps = window.findChild<QScrollArea*>("steps_scroll");
     steps->verticalScrollBar()->setValue(steps->verticalScrollBar()->maximum());
     camera.shoot("steps_check");

@@ -632,11 +632,27 @@ void WindowTest::exportDialogRefusesWhatCannotBe() {
     QVERIFY(go->isEnabled());
     QVERIFY(dialog->findChild<QLabel*>("command")->text().contains("terrawalk process"));
     QTest::mouseClick(dialog->findChild<QWidget*>("format_las_points"), Qt::LeftButton, {}, QPoint(8, 8));
-    QVERIFY(dialog->findChild<QLabel*>("command")->text().contains("--points las"));
+    const auto* command = dialog->findChild<QLabel*>("command");
+    QVERIFY(command->text().contains("--points las"));
+    QVERIFY(!command->text().contains("--all-points"));
+    auto* all_points = dialog->findChild<QCheckBox*>("all_points");
+    QVERIFY(all_points->isEnabled());
+    all_points->setChecked(true);
+    QVERIFY(command->text().endsWith("--points las --all-points"));
+    const QString export_line = command->text().section('\n', 1);
     QTest::mouseClick(go, Qt::LeftButton);
     QTRY_VERIFY_WITH_TIMEOUT(fs::exists(scratch_->filePath("result/dem.tif").toStdString()) && idle(),
                              kLong_ms);
     QVERIFY(fs::exists(scratch_->filePath("result-export/ground_points.las").toStdString()));
+    // The command that was shown makes the same file.
+    const QByteArray all = bytesOf(scratch_->filePath("result-export/ground_points.las"));
+    QProcess export_command;
+    export_command.start(TERRAWALK_PROGRAM, QProcess::splitCommand(export_line).mid(1) +
+                                                QStringList{"-o", scratch_->filePath("again"), "-q"});
+    QVERIFY(export_command.waitForFinished(kLong_ms));
+    QCOMPARE(export_command.exitCode(), 0);
+    QVERIFY(!all.isEmpty());
+    QVERIFY(bytesOf(scratch_->filePath("again/ground_points.las")) == all);
     // The survey's own folder must not be replaced.
     session().exportTo(sample_.toStdString());
     QTRY_VERIFY_WITH_TIMEOUT(idle(), kLong_ms);
@@ -1052,11 +1068,24 @@ void WindowTest::tuningRefusesWhatItCannotDoAndIsPlotted() {
     QVERIFY2(messages().contains("raw"), qPrintable(messages()));
     QVERIFY(!session().settings().tuned());
     QVERIFY(session().changeSetting("fusion.method", "ukf"));
-    window_->findChild<QComboBox*>("optimiser")->setCurrentText("pso");
+    auto* optimiser = window_->findChild<QComboBox*>("optimiser");
+    optimiser->setCurrentIndex(optimiser->findText("Particle swarm"));
+    // The effort is folded away, and what is usual until it is chosen.
+    auto* population = window_->findChild<QSpinBox*>("population");
+    QVERIFY(!population->isVisible());
+    QCOMPARE(population->text(), QString("auto"));
+    for (QToolButton* fold : window_->findChildren<QToolButton*>("further"))
+        if (fold->isCheckable()) fold->click();
+    QVERIFY(population->isVisible());
+    population->setValue(9);
+    window_->findChild<QSpinBox*>("iterations")->setValue(2);
+    window_->findChild<QSpinBox*>("restarts")->setValue(2);
     window_->findChild<QSpinBox*>("repeats")->setValue(2);
     QTest::mouseClick(window_->findChild<QPushButton*>("step_tune"), Qt::LeftButton);
     QTRY_VERIFY_WITH_TIMEOUT(idle() && session().tuning()->traces.size() == 2, kLong_ms);
     QVERIFY(session().settings().tuned());
+    QCOMPARE(session().settings().config().tuning->population, std::size_t{9});
+    QCOMPARE(session().settings().config().tuning->iterations, std::size_t{2});
     auto* plots = window_->findChild<PlotsView*>();
     plots->setPlot(PlotKind::Convergence);
     const Plot& plot = plots->canvas().plot();
