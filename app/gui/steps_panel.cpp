@@ -155,6 +155,7 @@ void StepsPanel::buildBudget(StepCard& card) {
         box->setAccessibleName(name);
         box->setToolTip(tip);
         box->setRange(least, greatest);
+        box->setAlignment(Qt::AlignRight);
         box->setFocusPolicy(Qt::StrongFocus);
         card.addField(name, box);
         return box;

@@ -6,6 +6,8 @@
 #include <QDockWidget>
 #include <QElapsedTimer>
 #include <QLineEdit>
+#include <QMenu>
+#include <QMenuBar>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QSettings>
@@ -136,6 +138,14 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
         camera.shoot("dialog_new", dialog);
         dialog->close();
         QTest::qWait(50);
+    }
+    for (QAction* top : window.menuBar()->actions()) {
+        QMenu* menu = top->menu();
+        if (!menu->actions().contains(window.findChild<QAction*>("undo"))) continue;
+        menu->popup(window.mapToGlobal(QPoint(40, 20)));
+        QTest::qWait(100);
+        camera.shoot("menu_edit", menu);
+        menu->close();
     }
     for (const char* name : {"export", "shortcuts", "about"}) {
         window.findChild<QAction*>(name)->trigger();

@@ -9,6 +9,7 @@
 #include <QLineEdit>
 #include <QListView>
 #include <QMenu>
+#include <QMenuBar>
 #include <QMimeData>
 #include <QPrinter>
 #include <QProcess>
@@ -22,6 +23,7 @@
 #include <QTableWidget>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QToolBar>
 #include <QToolButton>
 #include <QTreeView>
 #include <algorithm>
@@ -116,6 +118,8 @@ class WindowTest : public QObject {
     void changeSinceAnEarlierRunIsALayerOfBothViews();
     void bothViewsFollowOneState();
     void everyPartExplainsItself();
+    void everyActionOfTheMenusHasAStatusTip();
+    void toolBarsAndMenusShowWhatTheyHold();
     void tabReachesEveryControl();
     void chineseKnowsSettingsStepsAndSentences();
     void orchardNeverSilencesTheWindow();
@@ -842,6 +846,11 @@ void WindowTest::keysAloneSuffice() {
     QCOMPARE(map.transform().pixels_per_m, scale);
     QTest::keyClick(window_, Qt::Key_F1);
     QVERIFY(QApplication::activeModalWidget() != nullptr);
+    QStringList listed;
+    for (const QLabel* label : QApplication::activeModalWidget()->findChildren<QLabel*>())
+        listed << label->text();
+    for (const char* what : {"Move the map", "Turn the view", "Zoom the time axis", "All settings"})
+        QVERIFY2(listed.contains(what), what);
     QTest::keyClick(QApplication::activeModalWidget(), Qt::Key_Escape);
     QTRY_VERIFY(QApplication::activeModalWidget() == nullptr);
     // Every button and field can be reached and has a name for a screen reader.
@@ -1210,6 +1219,61 @@ void WindowTest::everyPartExplainsItself() {
         QVERIFY2(!dock->whatsThis().isEmpty(), qPrintable(dock->objectName()));
     for (const QAction* one : window_->findChild<MapPanel*>()->toolActions())
         QVERIFY2(!one->whatsThis().isEmpty(), qPrintable(one->text()));
+}
+
+void WindowTest::everyActionOfTheMenusHasAStatusTip() {
+    processed();
+    std::function<void(const QList<QAction*>&)> visit = [&](const QList<QAction*>& actions) {
+        for (const QAction* one : actions) {
+            if (one->isSeparator()) continue;
+            if (one->menu() != nullptr) {
+                if (one->menu()->objectName() != "recent") visit(one->menu()->actions());
+                continue;
+            }
+            QVERIFY2(!one->statusTip().isEmpty() || !one->isEnabled(), qPrintable(one->text()));
+            QVERIFY2(one->statusTip() != QString(one->text()).remove('&').remove("…"),
+                     qPrintable(one->text()));
+        }
+    };
+    visit(window_->menuBar()->actions());
+}
+
+void WindowTest::toolBarsAndMenusShowWhatTheyHold() {
+    processed();
+    for (const bool dark : {false, true}) {
+        if (dark) action("theme").trigger();
+        // The button for what a narrow tool bar has no room for is as wide as the others.
+        auto* bar = window_->findChild<QToolBar*>("map_bar");
+        auto* more = bar->findChild<QToolButton*>("qt_toolbar_ext_button");
+        QTRY_VERIFY(more->isVisible());
+        QVERIFY(more->width() >= 24);
+        // The icon of the tool that is in use stands out from the menu.
+        QMenu* edit = nullptr;
+        for (QAction* top : window_->menuBar()->actions())
+            if (top->menu()->actions().contains(&action("undo"))) edit = top->menu();
+        QVERIFY(edit != nullptr);
+        edit->popup(window_->mapToGlobal(QPoint(40, 20)));
+        QVERIFY(QTest::qWaitForWindowExposed(edit));
+        const QRect place = edit->actionGeometry(&action("tool_pan"));
+        const QImage picture = edit->grab(QRect(place.topLeft(), QSize(32, place.height()))).toImage();
+        const QImage other = edit->grab(QRect(edit->actionGeometry(&action("tool_measure")).topLeft(),
+                                              QSize(32, place.height())))
+                                 .toImage();
+        const auto contrast = [](const QImage& image) {
+            int darkest = 255, lightest = 0;
+            for (int y = 4; y < image.height() - 4; ++y) {
+                for (int x = 4; x < image.width() - 4; ++x) {
+                    const int grey = qGray(image.pixel(x, y));
+                    darkest = std::min(darkest, grey);
+                    lightest = std::max(lightest, grey);
+                }
+            }
+            return lightest - darkest;
+        };
+        edit->close();
+        QVERIFY2(contrast(picture) > 90, qPrintable(QString::number(contrast(picture))));
+        QVERIFY2(contrast(other) > 90, qPrintable(QString::number(contrast(other))));
+    }
 }
 
 /// From where the focus is, the tab key comes to each control that can be seen, and back.
