@@ -1,7 +1,7 @@
 #include "app/gui/accuracy_words.hpp"
 
 #include <QCoreApplication>
-#include <optional>
+#include <cmath>
 
 namespace terrawalk::gui {
 
@@ -14,12 +14,6 @@ namespace {
     QT_TRANSLATE_NOOP("RunFigure", "Crossovers"),  QT_TRANSLATE_NOOP("RunFigure", "Median σ"),
     QT_TRANSLATE_NOOP("RunFigure", "Area"),        QT_TRANSLATE_NOOP("RunFigure", "Points"),
     QT_TRANSLATE_NOOP("RunFigure", "Cell size")};
-
-std::optional<double> headlineRmse(const SurveyReport& report) {
-    if (!report.headline || *report.headline >= report.accuracy.size()) return std::nullopt;
-    const auto& up = report.accuracy[*report.headline].up;
-    return up ? std::optional(up->rmse_m) : std::nullopt;
-}
 
 }  // namespace
 
@@ -40,11 +34,11 @@ QString signedLength(double metres, int decimals) {
     return (metres < 0.0 ? QString(QChar(0x2212)) : QStringLiteral("+")) + number + " m";
 }
 
-QString changeOfFigures(const SurveyReport& before, const SurveyReport& after) {
-    const auto was = headlineRmse(before), is = headlineRmse(after);
-    if (!was || !is) return {};
-    return QCoreApplication::translate("AccuracyWords", "Height RMSE %1 against the last run (%2 → %3 m).")
-        .arg(signedLength(*is - *was), QString::number(*was, 'f', 3), QString::number(*is, 'f', 3));
+QString figureBefore(const RunFigures& before) {
+    const auto rmse = before.find("height_rmse_m");
+    if (rmse == before.end()) return {};
+    return QCoreApplication::translate("AccuracyWords", "Before: %1 m.")
+        .arg(QString::number(rmse->second, 'f', 3));
 }
 
 }  // namespace terrawalk::gui

@@ -552,6 +552,7 @@ void MainWindow::enableActions() {
                                                    {"cancel", busy},
                                                    {"export", made && !busy},
                                                    {"command", open},
+                                                   {"settings", open},
                                                    {"exclude", !session_.selection().item().isEmpty()}};
     for (const auto& [name, enabled] : states) actions_.at(name)->setEnabled(enabled);
     state_->setText(!open                 ? QString()
@@ -844,6 +845,7 @@ void MainWindow::setTheme(Theme theme) {
     report_->themeChanged();
     message_model_.themeChanged();
     steps_->themeChanged();
+    if (settings_ != nullptr) settings_->themeChanged();
     accuracy_->show(session_.products());
     showTree();
 }

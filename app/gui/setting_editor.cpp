@@ -214,6 +214,7 @@ void SettingEditor::showRefused(QWidget& field, bool refused) {
 }
 
 void markChanged(QLabel& name, bool changed) {
+    if (name.property("changed").toBool() == changed) return;
     name.setProperty("changed", changed);
     name.style()->unpolish(&name);
     name.style()->polish(&name);

@@ -145,15 +145,13 @@ void SurveySession::process() {
 }
 
 void SurveySession::finishRun(FinishedRun run) {
-    const bool had_one = !history_.empty();
-    const QString change =
-        had_one ? changeOfFigures(history_[shown_].products->report, run.products->report) : QString();
-    if (had_one) {
+    if (!history_.empty()) {
         const FinishedRun& shown = history_[shown_];
         run.before = RunSummary{shown.when, {}, shown.settings, runFigures(shown.products->report)};
     } else if (!runs_.empty()) {
         run.before = runs_.back();
     }
+    const QString before = run.before ? figureBefore(run.before->figures) : QString();
     keepRun(run);
     if (history_.size() == kKeptRuns) history_.erase(history_.begin());
     history_.push_back(std::move(run));
@@ -166,7 +164,7 @@ void SurveySession::finishRun(FinishedRun run) {
                                                   : tr(" %1: %2.")
                                                         .arg(reportWords(report.figures.front().label),
                                                              text(report.figures.front().value));
-    Q_EMIT told(MessageKind::Done, tr("Processed.") + figure + (change.isEmpty() ? QString() : " " + change));
+    Q_EMIT told(MessageKind::Done, tr("Processed.") + figure + (before.isEmpty() ? QString() : " " + before));
 }
 
 void SurveySession::tune(const TuneOptions& options, std::size_t repeats) {
@@ -261,8 +259,7 @@ void SurveySession::takeChange(Result<HeightChange> change) {
     if (c.has_sigma) {
         const auto sure = static_cast<double>(c.difference.raised + c.difference.lowered);
         words +=
-            " " +
-            tr("%1 % of the cells changed beyond 1.96 σ.").arg(QString::number(100.0 * sure / cells, 'f', 1));
+            " " + tr("%1 % of the cells beyond 1.96 σ.").arg(QString::number(100.0 * sure / cells, 'f', 1));
     }
     view_state_.setChange(std::make_shared<const HeightChange>(std::move(*change)));
     Q_EMIT told(MessageKind::Done, words);

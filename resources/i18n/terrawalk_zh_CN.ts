@@ -4,8 +4,8 @@
     <context>
         <name>AccuracyWords</name>
         <message>
-            <source>Height RMSE %1 against the last run (%2 → %3 m).</source>
-            <translation>高程 RMSE 较上次 %1（%2 → %3 m）。</translation>
+            <source>Before: %1 m.</source>
+            <translation>之前：%1 m。</translation>
         </message>
     </context>
     <context>
@@ -2798,10 +2798,6 @@
             <translation>报告的打印样式；可在此存为 PDF 或打印。</translation>
         </message>
         <message>
-            <source>Runs, marks, edits and results. The box shows or hides a thing in all views; the right button leaves a run or a mark out, or takes an edit back.</source>
-            <translation>航次、标志点、编辑和成果。方框控制在所有视图中显示或隐藏；右键可剔除航次或标志点，或撤回编辑。</translation>
-        </message>
-        <message>
             <source>What is known of the place that was clicked: its height, where the error comes from, the nearest hits, and what another pass would give.</source>
             <translation>所单击处的信息：高程、误差来源、最近的测点，以及再走一遍会有什么改进。</translation>
         </message>
@@ -3831,14 +3827,6 @@
             <translation>生成相同文件的 terrawalk 命令</translation>
         </message>
         <message>
-            <source>Earlier runs</source>
-            <translation>以前的处理</translation>
-        </message>
-        <message>
-            <source>Earlier runs: choosing one shows its results and takes its settings</source>
-            <translation>以前的处理：选择后显示其结果并采用其设置</translation>
-        </message>
-        <message>
             <source>Show the accuracy</source>
             <translation>查看精度</translation>
         </message>
@@ -3861,10 +3849,6 @@
         <message>
             <source>%1 · %2 left</source>
             <translation>%1 · 剩余%2</translation>
-        </message>
-        <message>
-            <source>%1 · %2</source>
-            <translation>%1 · %2</translation>
         </message>
         <message numerus="yes">
             <source>%n run(s)</source>
@@ -4060,7 +4044,7 @@
             <translation>减去%1：中位数 %2，RMS %3 m。</translation>
         </message>
         <message>
-            <source>%1 % of the cells changed beyond 1.96 σ.</source>
+            <source>%1 % of the cells beyond 1.96 σ.</source>
             <translation>%1 % 的格网变化超出 1.96 σ。</translation>
         </message>
         <message>
