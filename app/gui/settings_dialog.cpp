@@ -90,6 +90,13 @@ SettingsDialog::SettingsDialog(SurveySession& session, QWidget* parent) : QDialo
     connect(&session_, &SurveySession::settingsChanged, this, &SettingsDialog::showChanged);
     showChanged();
     search_->setFocus();
+    auto* find = new QAction(this);
+    find->setShortcut(QKeySequence::Find);
+    addAction(find);
+    connect(find, &QAction::triggered, this, [this] {
+        search_->setFocus();
+        search_->selectAll();
+    });
 }
 
 QWidget* SettingsDialog::buildSearch() {

@@ -390,7 +390,12 @@ void SurveySession::readRuns() {
     runs_.clear();
     const auto read = readRunHistory(runsFile());
     if (!read) return fail(read.error());
-    for (const PastRun& run : *read) {
+    if (read->left_out > 0) {
+        Q_EMIT told(MessageKind::Warning,
+                    tr("%n earlier run(s) cannot be read by this version and are left out.", nullptr,
+                       static_cast<int>(read->left_out)));
+    }
+    for (const PastRun& run : read->runs) {
         const QDateTime when = QDateTime::fromString(text(run.finished), Qt::ISODateWithMs);
         if (when.isValid())
             runs_.push_back({when.toLocalTime(), text(run.program), RunSettings(run.config), run.figures});

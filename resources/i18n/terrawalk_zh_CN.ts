@@ -4055,6 +4055,12 @@
             <source>The settings of the run of %1 are back: process again to see its results.</source>
             <translation>已恢复 %1 处理的设置：重新处理即可看到其结果。</translation>
         </message>
+        <message numerus="yes">
+            <source>%n earlier run(s) cannot be read by this version and are left out.</source>
+            <translation>
+                <numerusform>%n 次早前的处理本版本无法读取，已略去。</numerusform>
+            </translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::SurveyTreeModel</name>

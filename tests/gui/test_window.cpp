@@ -805,6 +805,13 @@ void WindowTest::runsOfReadOnlySurveysAndBrokenListsAreNoHarm() {
     QVERIFY(messages().contains("survey.runs.json"));
     QVERIFY(session().runs().empty());
     QVERIFY(!action("runs").isEnabled());
+    // What another version wrote is left out, and said.
+    QVERIFY(broken.open(QIODevice::WriteOnly | QIODevice::Truncate));
+    broken.write(R"({"format": "terrawalk-runs 1", "runs": [{"finished": "2026-05-01T08:00:00.000Z",
+        "program": "Terrawalk 9", "figures": {}, "settings": {"surface.not_yet": "1"}}]})");
+    broken.close();
+    openSample();
+    QTRY_VERIFY(idle() && messages().contains("1 earlier run cannot be read"));
 }
 
 void WindowTest::figuresStandBesideThoseOfTheRunBefore() {
