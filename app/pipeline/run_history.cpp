@@ -90,9 +90,9 @@ std::vector<FigureChange> figureChanges(const RunFigures& before, const RunFigur
     for (const FigureKind& kind : kFigureKinds) {
         const auto was = before.find(kind.key), is = now.find(kind.key);
         if (was == before.end() || is == now.end()) continue;
-        const bool same = rounded(was->second, kind.decimals) == rounded(is->second, kind.decimals);
-        if (same && kind.better == Better::Neither) continue;
-        changes.push_back({kind, was->second, is->second, verdict(kind, was->second, is->second)});
+        const double change = rounded(is->second, kind.decimals) - rounded(was->second, kind.decimals);
+        if (change == 0.0 && kind.better == Better::Neither) continue;
+        changes.push_back({kind, was->second, is->second, change, verdict(kind, was->second, is->second)});
     }
     return changes;
 }

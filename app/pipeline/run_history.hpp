@@ -46,6 +46,7 @@ struct FigureChange {
     FigureKind kind;
     double before = 0.0;
     double now = 0.0;
+    double change = 0.0;  ///< of the values as they are shown, so that the three add up
     /// > 0 better, < 0 worse, 0 neither, at the decimals that are shown.
     int verdict = 0;
 };

@@ -81,6 +81,9 @@ TEST(RunHistory, TellsBetterFromWorseAtTheDecimalsThatAreShown) {
     EXPECT_EQ(changes[1].verdict, 1);  // nearer zero
     EXPECT_EQ(changes[2].kind.key, "area_m2");
     EXPECT_EQ(changes[2].verdict, 0);
+    EXPECT_EQ(changes[0].change, 0.0);
+    EXPECT_NEAR(figureChanges({{"height_rmse_m", 0.1276}}, {{"height_rmse_m", 0.3074}}).front().change, 0.179,
+                1e-12);
     EXPECT_EQ(figureChanges(now, {{"height_rmse_m", 0.2}}).front().verdict, -1);
 }
 
