@@ -1,7 +1,7 @@
 #include "app/gui/accuracy_words.hpp"
 
 #include <QCoreApplication>
-#include <optional>
+#include <cmath>
 
 #include "app/gui/figures.hpp"
 
@@ -17,12 +17,6 @@ namespace {
     QT_TRANSLATE_NOOP("RunFigure", "Area"),        QT_TRANSLATE_NOOP("RunFigure", "Points"),
     QT_TRANSLATE_NOOP("RunFigure", "Cell size")};
 
-std::optional<double> headlineRmse(const SurveyReport& report) {
-    if (!report.headline || *report.headline >= report.accuracy.size()) return std::nullopt;
-    const auto& up = report.accuracy[*report.headline].up;
-    return up ? std::optional(up->rmse_m) : std::nullopt;
-}
-
 }  // namespace
 
 QString figureWords(const FigureKind& kind) {
@@ -37,11 +31,11 @@ QString figureText(const FigureKind& kind, double value) {
     return number(kind.unit == "m" ? inUnit(value) : value, kind.decimals);
 }
 
-QString changeOfFigures(const SurveyReport& before, const SurveyReport& after) {
-    const auto was = headlineRmse(before), is = headlineRmse(after);
-    if (!was || !is) return {};
-    return QCoreApplication::translate("AccuracyWords", "Height RMSE %1 against the last run (%2 → %3).")
-        .arg(signedLength(*is - *was), number(inUnit(*was), 3), lengthText(*is, 3));
+QString figureBefore(const RunFigures& before) {
+    const auto rmse = before.find("height_rmse_m");
+    if (rmse == before.end()) return {};
+    return QCoreApplication::translate("AccuracyWords", "Before: %1 m.")
+        .arg(QString::number(rmse->second, 'f', 3));
 }
 
 }  // namespace terrawalk::gui

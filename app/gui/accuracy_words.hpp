@@ -3,12 +3,11 @@
 #include <QString>
 
 #include "app/pipeline/run_history.hpp"
-#include "survey/survey_report.hpp"
 
 namespace terrawalk::gui {
 
-/// What became of the headline accuracy between two runs, in a sentence; empty where they cannot be compared.
-[[nodiscard]] QString changeOfFigures(const SurveyReport& before, const SurveyReport& after);
+/// The height error of the run before, in a short sentence; empty where it is not known.
+[[nodiscard]] QString figureBefore(const RunFigures& before);
 
 /// A figure's name, with its unit.
 [[nodiscard]] QString figureWords(const FigureKind& kind);

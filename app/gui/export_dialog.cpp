@@ -104,6 +104,12 @@ ExportDialog::ExportDialog(SurveySession& session, QWidget* parent) : QDialog(pa
         ++index;
     }
     column->addLayout(grid);
+    all_points_ = new QCheckBox(tr("Also points that were not used, with their reasons"));
+    all_points_->setObjectName("all_points");
+    all_points_->setToolTip(
+        tr("For the formats of points; without it, only those that the surface was made of"));
+    connect(all_points_, &QCheckBox::toggled, this, &ExportDialog::check);
+    column->addWidget(all_points_);
     column->addSpacing(kGrid_px);
     column->addWidget(new QLabel(tr("The same on the command line")));
     command_ = new QLabel;
@@ -143,8 +149,16 @@ void ExportDialog::check() {
     }
     problem_->setText(problem.isEmpty() ? tr("An earlier export there is replaced in one step.") : problem);
     problem_->setStyleSheet("color: " + (problem.isEmpty() ? quietColour() : errorColour()).name());
+    all_points_->setEnabled(anyPoints());
     export_->setEnabled(problem.isEmpty() && !session_.busy());
     command_->setText(commands());
+}
+
+bool ExportDialog::anyPoints() const {
+    for (qsizetype i = 0; i < formats_.size(); ++i) {
+        if (formats_[i]->isChecked() && QString(kFormats[i].option) == "points") return true;
+    }
+    return false;
 }
 
 QString ExportDialog::commands() const {
@@ -155,6 +169,7 @@ QString ExportDialog::commands() const {
         const Format& format = kFormats[i];
         if (formats_[i]->isChecked()) formats += QString(" --%1 %2").arg(format.option, format.value);
     }
+    if (anyPoints() && all_points_->isChecked()) formats += " --all-points";
     if (!formats.isEmpty()) lines += "\n" + QString("terrawalk export %1%2").arg(shellWord(folder), formats);
     return lines;
 }
@@ -166,6 +181,7 @@ void ExportDialog::start() {
     for (qsizetype i = 0; i < formats_.size(); ++i) {
         if (formats_[i]->isChecked()) addFormat(request, kFormats[i]);
     }
+    request.all_points = anyPoints() && all_points_->isChecked();
     session_.exportTo(folder.toStdString(), request);
     accept();
 }

@@ -23,9 +23,11 @@ class ExportDialog : public QDialog {
     void check();
     void start();
     [[nodiscard]] QString commands() const;
+    [[nodiscard]] bool anyPoints() const;
     SurveySession& session_;
     QLineEdit* folder_ = nullptr;
     QList<QCheckBox*> formats_;
+    QCheckBox* all_points_ = nullptr;
     QLabel* problem_ = nullptr;
     QLabel* command_ = nullptr;
     QPushButton* export_ = nullptr;

@@ -51,9 +51,8 @@ void FigureTable::addRow(const FigureChange& change, int row) {
     addCell(figureWords(change.kind), row, 0);
     addCell(figureText(change.kind, change.before), row, 1, "quiet");
     addCell(figureText(change.kind, change.now), row, 2);
-    const QString shown = figureText(change.kind, change.now - change.before);
-    const bool grown = change.now > change.before && shown.toDouble() != 0.0;
-    addCell(grown ? "+" + shown : shown, row, 3);
+    const QString shown = figureText(change.kind, change.change);
+    addCell(change.change > 0.0 ? "+" + shown : shown, row, 3);
     const QString words = verdictWords(change.verdict);
     auto* sign = new QLabel(change.verdict > 0 ? kBetter : change.verdict < 0 ? kWorse : QChar(' '));
     sign->setObjectName("verdict");

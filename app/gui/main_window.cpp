@@ -20,6 +20,7 @@
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QTabWidget>
+#include <QToolButton>
 #include <QTreeView>
 #include <QUrl>
 #include <QWhatsThis>
@@ -279,9 +280,6 @@ QAction* MainWindow::addAction(QMenu& menu, const QString& name, const QString& 
     action->setObjectName(name);
     action->setProperty(kIconName, icon_name);
     action->setShortcut(key);
-    QString plain = words;
-    action->setStatusTip(plain.remove('&').remove("…"));
-    action->setWhatsThis(action->statusTip());
     connect(action, &QAction::triggered, this, run);
     actions_[name] = action;
     return action;
@@ -321,12 +319,49 @@ void MainWindow::explain() {
     }
 }
 
+void MainWindow::explainActions() {
+    const std::pair<const char*, QString> tips[] = {
+        {"open", tr("Opens a survey.json, or the folder that holds one")},
+        {"new", tr("Makes a survey from array logs and a table of marks")},
+        {"start_page", tr("Samples and the surveys of the last days")},
+        {"save",
+         tr("Writes the settings and edits beside the survey, for this program and the command line")},
+        {"save_settings_as", tr("Writes the settings and edits into any file, for other surveys")},
+        {"load_settings", tr("Takes the settings of a file over; undo brings yours back")},
+        {"process", tr("Fuses, cleans, makes the surface and checks it")},
+        {"cancel", tr("Stops what is running; what was there before stays")},
+        {"runs", tr("Figures and settings of the last runs, and the way back to one")},
+        {"tune", tr("Searches noise parameters that make errors at control marks small")},
+        {"export", tr("Writes DEM, mesh, tracks and report into a folder")},
+        {"command", tr("Puts the command line that makes the same files on the clipboard")},
+        {"quit", tr("Closes the window; changes that are not saved come back next time")},
+        {"undo", tr("Takes the last change of settings or edits back")},
+        {"redo", tr("Makes the change again that was taken back")},
+        {"exclude", tr("Leaves the selected stretch, run or mark out; the logs stay as they are")},
+        {"settings", tr("Every setting with its meaning, in groups and with a search")},
+        {"theme", tr("Light colours on dark, or dark ones on light")},
+        {"language", tr("The window in Chinese or in English")},
+        {"shortcuts", tr("All keys in one table")},
+        {"whats_this", tr("Click a part of the window then, and it explains itself")},
+        {"about", tr("Version and licence")}};
+    const auto explain = [](QAction& action, const QString& tip) {
+        action.setStatusTip(tip);
+        action.setWhatsThis(tip);
+    };
+    for (const auto& [name, tip] : tips) explain(*actions_.at(name), tip);
+    for (int tab = 0; tab < views_->count(); ++tab)
+        explain(*actions_.at(QString("view_%1").arg(tab)), tr("Shows the view %1").arg(views_->tabText(tab)));
+    for (QDockWidget* dock : docks_)
+        dock->toggleViewAction()->setStatusTip(tr("Shows or hides the panel %1").arg(dock->windowTitle()));
+}
+
 void MainWindow::buildActions() {
     buildFileMenu();
     buildEditMenu();
     buildViewMenu();
     buildHelpMenu();
     explain();
+    explainActions();
     themeIcons();
 }
 
@@ -335,6 +370,7 @@ void MainWindow::buildFileMenu() {
     addAction(menu, "open", "open", tr("&Open…"), QKeySequence::Open, [this] { askForSurvey(); });
     addAction(menu, "new", "new", tr("&New from files…"), QKeySequence::New, [this] { newSurvey(); });
     QMenu* recent = menu.addMenu(tr("Open &recent"));
+    recent->setObjectName("recent");
     connect(recent, &QMenu::aboutToShow, this, [this, recent] {
         recent->clear();
         for (const QString& path : recentSurveys()) {
@@ -394,7 +430,9 @@ void MainWindow::buildEditMenu() {
                                                         {EditedSensor::Flow, tr("optical flow")},
                                                         {EditedSensor::Attitude, tr("attitude")}};
     for (const auto& [sensor, words] : sensors) {
-        connect(only->addAction(words), &QAction::triggered, this,
+        QAction* action = only->addAction(words);
+        action->setStatusTip(tr("Leaves these readings of the selected stretch out, and keeps the others"));
+        connect(action, &QAction::triggered, this,
                 [this, one = sensor] { excludeStretches(session_.selection().stretches(), one); });
     }
     connect(only, &QMenu::aboutToShow, this, [this, only] {
@@ -466,12 +504,14 @@ void MainWindow::fillCompareMenu(QMenu& menu) {
         if (i == session_.shownRun()) continue;
         QAction* action = menu.addAction(tr("The run of %1").arg(timeOfRun(runs[i].when)));
         action->setEnabled(ready);
+        action->setStatusTip(tr("Shows how the heights changed since that run"));
         connect(action, &QAction::triggered, this, [this, i] { session_.compareWith(i); });
     }
     if (menu.isEmpty()) menu.addAction(tr("No other run yet"))->setEnabled(false);
     menu.addSeparator();
     QAction* dem = menu.addAction(tr("Another DEM…"));
     dem->setObjectName("compare_dem");
+    dem->setStatusTip(tr("Shows how the heights differ from those of a file"));
     dem->setEnabled(ready);
     connect(dem, &QAction::triggered, this, [this] {
         const QString file = questions.dem(tr("Earlier heights of the same ground"), lastFolder());
@@ -480,6 +520,7 @@ void MainWindow::fillCompareMenu(QMenu& menu) {
         session_.compareWith(std::filesystem::path(file.toStdString()));
     });
     QAction* nothing = menu.addAction(tr("Nothing"));
+    nothing->setStatusTip(tr("Takes the layer of changes away"));
     nothing->setEnabled(session_.viewState().now().change != nullptr);
     connect(nothing, &QAction::triggered, this, [this] { session_.compareWithNothing(); });
 }
@@ -537,6 +578,7 @@ void MainWindow::enableActions() {
                                                    {"cancel", busy},
                                                    {"export", made && !busy},
                                                    {"command", open},
+                                                   {"settings", open},
                                                    {"exclude", !session_.selection().empty()}};
     for (const auto& [name, enabled] : states) actions_.at(name)->setEnabled(enabled);
     state_->setText(!open                 ? QString()
@@ -841,6 +883,7 @@ void MainWindow::setTheme(Theme theme) {
     report_->themeChanged();
     message_model_.themeChanged();
     steps_->themeChanged();
+    if (settings_ != nullptr) settings_->themeChanged();
     accuracy_->show(session_.products());
     showTree();
 }
@@ -850,6 +893,8 @@ void MainWindow::themeIcons() {
         const QString icon_name = action->property(kIconName).toString();
         if (!icon_name.isEmpty()) action->setIcon(icon(icon_name));
     }
+    // Qt's own buttons for what a tool bar has no room for.
+    for (auto* more : findChildren<QToolButton*>("qt_toolbar_ext_button")) more->setIcon(icon("more"));
     const std::pair<int, const char*> tabs[] = {{views_->indexOf(map_), "map"},
                                                 {views_->indexOf(terrain_), "terrain_3d"},
                                                 {views_->indexOf(plots_), "plots"},

@@ -75,6 +75,7 @@ class MainWindow : public QMainWindow {
   private:
     void buildDocks();
     void explain();
+    void explainActions();
     void buildViews();
     void buildActions();
     void buildFileMenu();

@@ -214,6 +214,7 @@ void SettingEditor::showRefused(QWidget& field, bool refused) {
 }
 
 void markChanged(QLabel& name, bool changed) {
+    if (name.property("changed").toBool() == changed) return;
     name.setProperty("changed", changed);
     name.style()->unpolish(&name);
     name.style()->polish(&name);
@@ -250,6 +251,12 @@ QString settingName(const QString& key) {
     if (translated != english) return translated;
     QString name = lastWords(key);
     name.replace("gnss", "GNSS").replace("huber", "Huber");
+    for (const auto& [axis, direction] : {std::pair(" e", " east"), {" n", " north"}, {" u", " up"}}) {
+        if (!name.endsWith(axis)) continue;
+        name.chop(2);
+        name += direction;
+        break;
+    }
     return name.left(1).toUpper() + name.mid(1);
 }
 

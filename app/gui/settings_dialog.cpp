@@ -84,11 +84,19 @@ SettingsDialog::SettingsDialog(SurveySession& session, QWidget* parent) : QDialo
     column->addLayout(middle, 1);
     column->addWidget(buildFooter());
     build();
+    themeChanged();
     filter();
     connect(scroll_->verticalScrollBar(), &QScrollBar::valueChanged, this, &SettingsDialog::followScroll);
     connect(&session_, &SurveySession::settingsChanged, this, &SettingsDialog::showChanged);
     showChanged();
     search_->setFocus();
+    auto* find = new QAction(this);
+    find->setShortcut(QKeySequence::Find);
+    addAction(find);
+    connect(find, &QAction::triggered, this, [this] {
+        search_->setFocus();
+        search_->selectAll();
+    });
 }
 
 QWidget* SettingsDialog::buildSearch() {
@@ -101,7 +109,7 @@ QWidget* SettingsDialog::buildSearch() {
     search_->setPlaceholderText(tr("Search by name, key or meaning, in English or Chinese"));
     search_->setAccessibleName(tr("Search"));
     search_->setClearButtonEnabled(true);
-    search_->addAction(icon("search", quietColour()), QLineEdit::LeadingPosition);
+    search_icon_ = search_->addAction(QIcon(), QLineEdit::LeadingPosition);
     only_changed_ = new QCheckBox;
     only_changed_->setObjectName("only_changed");
     row->addWidget(search_, 1);
@@ -163,7 +171,8 @@ void SettingsDialog::build() {
 }
 
 void SettingsDialog::addStep(const Step& step) {
-    auto* head = new QListWidgetItem(icon(step.icon, accentColour()), step.title, list_);
+    step_icons_.emplace_back(list_->count(), step.icon);
+    auto* head = new QListWidgetItem(step.title, list_);
     head->setFlags(Qt::ItemIsEnabled);
     QFont bold = head->font();
     bold.setBold(true);
@@ -189,6 +198,11 @@ void SettingsDialog::addGroup(const Step& step, const QString& prefix, int step_
     none.fill(Qt::transparent);
     new QListWidgetItem(none, group.title, list_);
     groups_.push_back(std::move(group));
+}
+
+void SettingsDialog::themeChanged() {
+    search_icon_->setIcon(icon("search", quietColour()));
+    for (const auto& [row, name] : step_icons_) list_->item(row)->setIcon(icon(name, accentColour()));
 }
 
 void SettingsDialog::showStep(StepKind step) {

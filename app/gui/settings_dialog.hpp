@@ -1,10 +1,12 @@
 #pragma once
 
 #include <QDialog>
+#include <utility>
 #include <vector>
 
 #include "app/gui/steps.hpp"
 
+class QAction;
 class QCheckBox;
 class QLabel;
 class QLineEdit;
@@ -25,6 +27,7 @@ class SettingsDialog : public QDialog {
     explicit SettingsDialog(SurveySession& session, QWidget* parent = nullptr);
     /// Scrolls to the settings of a step.
     void showStep(StepKind step);
+    void themeChanged();
 
   private:
     /// A group below its heading.
@@ -50,6 +53,8 @@ class SettingsDialog : public QDialog {
     SurveySession& session_;
     std::vector<Group> groups_;
     QLineEdit* search_ = nullptr;
+    QAction* search_icon_ = nullptr;
+    std::vector<std::pair<int, QString>> step_icons_;  ///< row of the list and name
     QCheckBox* only_changed_ = nullptr;
     QListWidget* list_ = nullptr;
     QScrollArea* scroll_ = nullptr;

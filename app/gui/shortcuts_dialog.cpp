@@ -35,7 +35,6 @@ QGridLayout* table(const QString& title, const QList<Row>& rows) {
         grid->addWidget(keyLabel(row.keys), at, 0, Qt::AlignLeft);
         grid->addWidget(new QLabel(row.meaning), at, 1);
     }
-    grid->setRowStretch(grid->rowCount(), 1);
     grid->setColumnStretch(1, 1);
     return grid;
 }
@@ -61,6 +60,13 @@ ShortcutsDialog::ShortcutsDialog(const std::map<QString, QAction*>& actions, con
         if (!action->shortcut().isEmpty()) window << rowOf(*action);
     }
     for (const QAction* tool : tools) map_tools << rowOf(*tool);
+    const QList<Row> terrain{{tr("Arrows"), tr("Turn the view")},
+                             {tr("Shift+Arrows"), tr("Move the view")},
+                             {"+  −", tr("Nearer and farther")},
+                             {"Home", tr("The first view again")},
+                             {"Esc", tr("Ask for no place any more")}};
+    const QList<Row> plots{
+        {"←  →", tr("Earlier and later")}, {"+  −", tr("Zoom the time axis")}, {"Home", tr("Show all")}};
     const QList<Row> moves{{tr("Arrows"), tr("Move the map")},
                            {"+  −", tr("Zoom in and out")},
                            {"Home", tr("Show all")},
@@ -69,13 +75,22 @@ ShortcutsDialog::ShortcutsDialog(const std::map<QString, QAction*>& actions, con
                            {"Esc", tr("Leave the tool, select nothing")}};
     auto* columns = new QHBoxLayout;
     columns->setSpacing(5 * kGrid_px);
-    columns->addLayout(table(tr("Window"), window));
+    auto* left = new QVBoxLayout;
+    left->addLayout(table(tr("Window"), window));
+    left->addStretch(1);
+    columns->addLayout(left);
     auto* right = new QVBoxLayout;
     right->addLayout(table(tr("Tools"), map_tools));
     right->addSpacing(2 * kGrid_px);
     right->addLayout(table(tr("On the map"), moves));
-    right->addStretch();
+    right->addStretch(1);
     columns->addLayout(right);
+    auto* views = new QVBoxLayout;
+    views->addLayout(table(tr("In three dimensions"), terrain));
+    views->addSpacing(2 * kGrid_px);
+    views->addLayout(table(tr("On the plots"), plots));
+    views->addStretch(1);
+    columns->addLayout(views);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     auto* column = new QVBoxLayout(this);

@@ -22,6 +22,7 @@ void ShowMenu::addLayers() {
     for (const auto& [layer, name] : layerNames()) {
         QAction* action = group->addAction(menu->addAction(name));
         action->setCheckable(true);
+        action->setStatusTip(tr("Colours the ground by this, on the map and in 3-D"));
         const auto follow = [this, action, own = layer] {
             action->setChecked(state_.now().layer == own);
             action->setEnabled(state_.available(own));
@@ -39,6 +40,7 @@ void ShowMenu::addColourings() {
     for (const auto& [colouring, name] : colouringNames()) {
         QAction* action = group->addAction(menu->addAction(name));
         action->setCheckable(true);
+        action->setStatusTip(tr("Colours the tracks by this, on the map and in 3-D"));
         const auto follow = [this, action, own = colouring] {
             action->setChecked(state_.now().colouring == own);
         };
@@ -52,6 +54,7 @@ void ShowMenu::addFlag(const QString& text, const char* name, bool ViewChoice::*
     QAction* action = addAction(text);
     action->setObjectName(name);
     action->setCheckable(true);
+    action->setStatusTip(tr("Draws this on the ground or not, on the map and in 3-D"));
     const auto follow = [this, action, flag] {
         action->setChecked(state_.now().*flag);
     };

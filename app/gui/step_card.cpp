@@ -43,23 +43,66 @@ StepCard::StepCard(SurveySession& session, const Step& step, QWidget* parent)
     showChanged();
 }
 
+QFormLayout& StepCard::form() {
+    if (form_ != nullptr) return *form_;
+    form_ = new QFormLayout;
+    form_->setContentsMargins(0, 0, 0, 0);
+    form_->setHorizontalSpacing(kGrid_px);
+    form_->setVerticalSpacing(kGrid_px / 2);
+    form_->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+    form_->setLabelAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+    if (folded_ != nullptr) {
+        folded_->setLayout(form_);
+    } else {
+        body_->addLayout(form_);
+    }
+    return *form_;
+}
+
+QLabel* StepCard::addName(const QString& key, const QString& words) {
+    auto* name = new QLabel(words);
+    name->setObjectName("settingName");
+    names_[key] = name;
+    return name;
+}
+
 void StepCard::addImportant(const Step& step) {
-    auto* form = new QFormLayout;
-    form->setContentsMargins(0, 0, 0, 0);
-    form->setHorizontalSpacing(kGrid_px);
-    form->setVerticalSpacing(kGrid_px / 2);
-    form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-    form->setLabelAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     for (const auto& [key, label] : step.important) {
         auto* editor = new SettingEditor(session_, key);
-        auto* name = new QLabel(label);
-        name->setObjectName("settingName");
+        QLabel* name = addName(key, label);
         name->setToolTip(editor->toolTip());
         name->setBuddy(editor);
-        form->addRow(name, editor);
-        names_[key] = name;
+        form().addRow(name, editor);
     }
-    body_->addLayout(form);
+}
+
+void StepCard::addField(const QString& words, QWidget* field) {
+    QLabel* name = addName(words, words);
+    name->setToolTip(field->toolTip());
+    name->setBuddy(field);
+    form().addRow(name, field);
+}
+
+void StepCard::beginFold(const QString& object_name, const QString& words) {
+    fold_ = new QToolButton;
+    fold_->setObjectName("further");
+    fold_->setAccessibleName(words);
+    fold_->setText(words);
+    fold_->setCheckable(true);
+    fold_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    fold_->setIconSize({12, 12});
+    folded_ = new QWidget;
+    folded_->setObjectName(object_name);
+    form_ = nullptr;
+    body_->addWidget(fold_);
+    body_->addWidget(folded_);
+    connect(fold_, &QToolButton::toggled, this, &StepCard::unfold);
+    unfold(false);
+}
+
+void StepCard::unfold(bool unfolded) {
+    folded_->setVisible(unfolded);
+    fold_->setIcon(icon(unfolded ? "opened" : "closed", quietColour()));
 }
 
 int StepCard::namesWidth_px() const {
@@ -89,6 +132,7 @@ void StepCard::showChanged() {
 
 void StepCard::themeChanged() {
     picture_->setPixmap(icon(icon_name_, accentColour()).pixmap(16, 16));
+    if (fold_ != nullptr) unfold(fold_->isChecked());
 }
 
 void StepCard::setState(const QString& state, const QColor& colour) {

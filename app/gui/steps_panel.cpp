@@ -13,6 +13,7 @@
 
 #include "app/gui/figure_table.hpp"
 #include "app/gui/report_words.hpp"
+#include "app/gui/setting_words.hpp"
 #include "app/gui/step_card.hpp"
 #include "app/gui/survey_session.hpp"
 #include "app/gui/theme.hpp"
@@ -47,9 +48,6 @@ StepsPanel::StepsPanel(SurveySession& session, QWidget* parent) : QWidget(parent
         connect(card, &StepCard::furtherAsked, this,
                 [this, kind = step.kind] { Q_EMIT settingsAsked(kind); });
     }
-    int names_px = 0;
-    for (const auto& [kind, card] : cards_) names_px = std::max(names_px, card->namesWidth_px());
-    for (const auto& [kind, card] : cards_) card->setNamesWidth(names_px);
     column->addStretch();
     auto* scroll = new QScrollArea;
     scroll->setWidget(list);
@@ -63,6 +61,9 @@ StepsPanel::StepsPanel(SurveySession& session, QWidget* parent) : QWidget(parent
     layout->addWidget(scroll, 1);
     layout->addWidget(buildFooter());
     fillCards();
+    int names_px = 0;
+    for (const auto& [kind, card] : cards_) names_px = std::max(names_px, card->namesWidth_px());
+    for (const auto& [kind, card] : cards_) card->setNamesWidth(names_px);
     connect(&session_, &SurveySession::surveyChanged, this, &StepsPanel::showState);
     connect(&session_, &SurveySession::productsChanged, this, [this] {
         showHistory();
@@ -86,8 +87,15 @@ QPushButton* StepsPanel::addButton(StepCard& card, const QString& name, const QS
 }
 
 void StepsPanel::tune() {
-    session_.tune(static_cast<OptimiserKind>(optimiser_->currentData().toInt()),
-                  static_cast<std::size_t>(repeats_->value()));
+    const auto chosen = [](const QSpinBox& box) {
+        return box.value() == box.minimum() ? 0 : static_cast<std::size_t>(box.value());
+    };
+    TuneOptions options;
+    options.optimiser = static_cast<OptimiserKind>(optimiser_->currentData().toInt());
+    options.population = chosen(*population_);
+    options.iterations = chosen(*iterations_);
+    options.restarts = static_cast<std::size_t>(restarts_->value());
+    session_.tune(options, static_cast<std::size_t>(repeats_->value()));
 }
 
 void StepsPanel::fillCards() {
@@ -99,6 +107,7 @@ void StepsPanel::fillCards() {
         tr("Searches noise parameters of the method that make errors at control marks small, and takes "
            "them only where they hold out better on marks left out"));
     buildSearch(*cards_[StepKind::Tune]);
+    buildBudget(*cards_[StepKind::Tune]);
     connect(tune_, &QPushButton::clicked, this, &StepsPanel::tune);
     buildCheck(*cards_[StepKind::Check]);
     export_ = addButton(*cards_[StepKind::Export], "step_export", tr("Export…"),
@@ -121,8 +130,9 @@ void StepsPanel::buildSearch(StepCard& card) {
         tr("The optimiser that searches; Plots > Optimisers compared shows them side by side"));
     optimiser_->setFocusPolicy(Qt::StrongFocus);
     for (const auto& [kind, name] : kOptimiserNames) {
-        optimiser_->addItem(QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())),
-                            static_cast<int>(kind));
+        const QString word = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+        optimiser_->addItem(choiceWords(word), static_cast<int>(kind));
+        optimiser_->setItemData(optimiser_->count() - 1, word, Qt::ToolTipRole);
     }
     repeats_ = new QSpinBox;
     repeats_->setObjectName("repeats");
@@ -134,6 +144,30 @@ void StepsPanel::buildSearch(StepCard& card) {
     layout->addWidget(optimiser_, 1);
     layout->addWidget(repeats_);
     card.addBody(row);
+}
+
+void StepsPanel::buildBudget(StepCard& card) {
+    card.beginFold("search_budget", tr("Effort of the search"));
+    const auto add = [&](const QString& object_name, const QString& name, int least, int greatest,
+                         const QString& tip) {
+        auto* box = new QSpinBox;
+        box->setObjectName(object_name);
+        box->setAccessibleName(name);
+        box->setToolTip(tip);
+        box->setRange(least, greatest);
+        box->setAlignment(Qt::AlignRight);
+        box->setFocusPolicy(Qt::StrongFocus);
+        card.addField(name, box);
+        return box;
+    };
+    // As on the command line; one step below the least stands for what is usual.
+    population_ = add("population", tr("Population"), 7, 100000,
+                      tr("Candidates that the search keeps; auto: 100 for aukf, 8 for other methods"));
+    iterations_ = add("iterations", tr("Iterations"), 0, 10000000,
+                      tr("How often each of them is tried anew; auto: 1000 for aukf, 6 for other methods"));
+    for (QSpinBox* box : {population_, iterations_}) box->setSpecialValueText(tr("auto"));
+    restarts_ = add("restarts", tr("Restarts"), 1, 64,
+                    tr("Independent searches within one, each of that effort; the best is taken"));
 }
 
 void StepsPanel::buildCheck(StepCard& card) {

@@ -24,7 +24,7 @@ class StepsPanel : public QWidget {
     explicit StepsPanel(SurveySession& session, QWidget* parent = nullptr);
 
     void themeChanged();
-    /// With the optimiser and the repeats that are chosen here.
+    /// As it is chosen here.
     void tune();
 
   Q_SIGNALS:
@@ -40,6 +40,7 @@ class StepsPanel : public QWidget {
     void fillCards();
     void buildCheck(StepCard& card);
     void buildSearch(StepCard& card);
+    void buildBudget(StepCard& card);
     QPushButton* addButton(StepCard& card, const QString& name, const QString& text, const QString& tip);
     QWidget* buildFooter();
     void showState();
@@ -50,6 +51,9 @@ class StepsPanel : public QWidget {
     QPushButton* tune_ = nullptr;
     QComboBox* optimiser_ = nullptr;
     QSpinBox* repeats_ = nullptr;
+    QSpinBox* population_ = nullptr;
+    QSpinBox* iterations_ = nullptr;
+    QSpinBox* restarts_ = nullptr;
     QPushButton* export_ = nullptr;
     QPushButton* command_ = nullptr;
     QPushButton* accuracy_ = nullptr;

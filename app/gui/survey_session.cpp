@@ -146,15 +146,13 @@ void SurveySession::process() {
 }
 
 void SurveySession::finishRun(FinishedRun run) {
-    const bool had_one = !history_.empty();
-    const QString change =
-        had_one ? changeOfFigures(history_[shown_].products->report, run.products->report) : QString();
-    if (had_one) {
+    if (!history_.empty()) {
         const FinishedRun& shown = history_[shown_];
         run.before = RunSummary{shown.when, {}, shown.settings, runFigures(shown.products->report)};
     } else if (!runs_.empty()) {
         run.before = runs_.back();
     }
+    const QString before = run.before ? figureBefore(run.before->figures) : QString();
     keepRun(run);
     if (history_.size() == kKeptRuns) history_.erase(history_.begin());
     history_.push_back(std::move(run));
@@ -167,12 +165,12 @@ void SurveySession::finishRun(FinishedRun run) {
                                                   : tr(" %1: %2.")
                                                         .arg(reportWords(report.figures.front().label),
                                                              text(report.figures.front().value));
-    Q_EMIT told(MessageKind::Done, tr("Processed.") + figure + (change.isEmpty() ? QString() : " " + change));
+    Q_EMIT told(MessageKind::Done, tr("Processed.") + figure + (before.isEmpty() ? QString() : " " + before));
 }
 
-void SurveySession::tune(OptimiserKind optimiser, std::size_t repeats) {
+void SurveySession::tune(const TuneOptions& options, std::size_t repeats) {
     if (!survey_) return;
-    job_.start([this, survey = survey_, config = settings_.config(), optimiser, repeats](
+    job_.start([this, survey = survey_, config = settings_.config(), options, repeats](
                    Progress& progress, const std::stop_token& stop) {
         auto edited = withEdits(*survey, config.edits);
         std::vector<TuneTrace> traces;
@@ -180,10 +178,9 @@ void SurveySession::tune(OptimiserKind optimiser, std::size_t repeats) {
         for (std::size_t r = 0; edited && r < repeats; ++r) {
             const auto n = static_cast<double>(repeats), done = static_cast<double>(r);
             PartialProgress part(progress, done / n, (done + 1.0) / n);
-            TuneOptions options;
-            options.optimiser = optimiser;
-            options.seed = config.seed + r;
-            auto tuned = tunedWithTrace(*edited, config, options, part, stop);
+            TuneOptions search = options;
+            search.seed = config.seed + r;
+            auto tuned = tunedWithTrace(*edited, config, search, part, stop);
             if (tuned) traces.push_back(tuned->trace);
             if (!tuned || !best || tuned->loss < best->loss) best = std::move(tuned);
             if (!best) break;
@@ -263,8 +260,7 @@ void SurveySession::takeChange(Result<HeightChange> change) {
     if (c.has_sigma) {
         const auto sure = static_cast<double>(c.difference.raised + c.difference.lowered);
         words +=
-            " " +
-            tr("%1 % of the cells changed beyond 1.96 σ.").arg(QString::number(100.0 * sure / cells, 'f', 1));
+            " " + tr("%1 % of the cells beyond 1.96 σ.").arg(QString::number(100.0 * sure / cells, 'f', 1));
     }
     view_state_.setChange(std::make_shared<const HeightChange>(std::move(*change)));
     Q_EMIT told(MessageKind::Done, words);
@@ -395,7 +391,12 @@ void SurveySession::readRuns() {
     runs_.clear();
     const auto read = readRunHistory(runsFile());
     if (!read) return fail(read.error());
-    for (const PastRun& run : *read) {
+    if (read->left_out > 0) {
+        Q_EMIT told(MessageKind::Warning,
+                    tr("%n earlier run(s) cannot be read by this version and are left out.", nullptr,
+                       static_cast<int>(read->left_out)));
+    }
+    for (const PastRun& run : read->runs) {
         const QDateTime when = QDateTime::fromString(text(run.finished), Qt::ISODateWithMs);
         if (when.isValid())
             runs_.push_back({when.toLocalTime(), text(run.program), RunSettings(run.config), run.figures});

@@ -19,6 +19,7 @@
 #include "app/pipeline/process.hpp"
 #include "app/pipeline/run_history.hpp"
 #include "app/pipeline/survey_map.hpp"
+#include "app/pipeline/tune.hpp"
 #include "app/pipeline/tune_trace.hpp"
 #include "survey/result.hpp"
 #include "survey/survey.hpp"
@@ -63,8 +64,9 @@ class SurveySession : public QObject {
     void open(const std::filesystem::path& project_file_or_folder, bool then_process = false);
     void process();
     /// Tunes the method on the survey's marks and takes the values over where they hold out better; undoable.
+    /// @param options  but for the seed, which is that of the settings
     /// @param repeats  searches with seeds one after the other, of which the best is taken
-    void tune(OptimiserKind optimiser = OptimiserKind::Isma, std::size_t repeats = 1);
+    void tune(const TuneOptions& options = {}, std::size_t repeats = 1);
     /// The searches of this survey, and of files that were opened.
     [[nodiscard]] std::shared_ptr<const TuningData> tuning() const { return tuning_; }
     /// Adds the search of a tuned file, or shows the table of an experiment.

@@ -6,7 +6,7 @@
 #include <QPainter>
 #include <QPalette>
 #include <QPixmap>
-#include <QStyleFactory>
+#include <QProxyStyle>
 #include <QSvgRenderer>
 
 /// Resources of a static library are found only once somebody asked for them; outside any namespace, as Qt
@@ -76,7 +76,11 @@ QToolBar QToolButton:hover { background: %line; }
 QToolBar QToolButton:checked { background: %accent; }
 QStatusBar { border-top: 1px solid %line; }
 QStatusBar::item { border: 0; }
-QDockWidget { font-weight: 600; }
+QDockWidget { font-weight: 600; titlebar-close-icon: url(:/icons/dock_close.svg); titlebar-normal-icon: url(:/icons/dock_float.svg); }
+QDockWidget::close-button, QDockWidget::float-button { border: 0; border-radius: 4px; padding: 0; icon-size: 14px; subcontrol-origin: margin; subcontrol-position: right; position: absolute; top: 0; bottom: 0; width: 18px; }
+QDockWidget::close-button { right: 8px; }
+QDockWidget::float-button { right: 32px; }
+QDockWidget::close-button:hover, QDockWidget::float-button:hover { background: %line; }
 QDockWidget::title { padding: 8px; background: %window; border-bottom: 1px solid %line; }
 QTreeView, QTableView, QScrollArea, QPlainTextEdit { border: 0; background: %base; }
 QTreeView::item { padding: 3px 0; }
@@ -87,8 +91,24 @@ QHeaderView::section { background: %raised; border: 0; border-bottom: 1px solid 
 QTabWidget::pane { border: 0; }
 QTabBar::tab { padding: 8px 16px; border: 0; border-bottom: 2px solid transparent; color: %quiet; }
 QTabBar::tab:selected { color: %text; border-bottom: 2px solid %accent; }
-QLineEdit, QComboBox { padding: 3px 8px; border: 1px solid %line; border-radius: 4px; background: %base; min-height: 18px; }
-QLineEdit:focus, QComboBox:focus { border-color: %accent; }
+QLineEdit, QComboBox, QAbstractSpinBox { padding: 3px 8px; border: 1px solid %line; border-radius: 4px; background: %base; min-height: 18px; selection-background-color: %accent; selection-color: %onaccent; }
+QLineEdit:hover, QComboBox:hover, QAbstractSpinBox:hover { border-color: %quiet; }
+QLineEdit:focus, QComboBox:focus, QAbstractSpinBox:focus { border-color: %accent; }
+QLineEdit:disabled, QComboBox:disabled, QAbstractSpinBox:disabled { background: %window; color: %quiet; }
+QAbstractSpinBox { padding-right: 20px; }
+QAbstractSpinBox::up-button, QAbstractSpinBox::down-button { subcontrol-origin: border; width: 20px; height: 12px; border: 0; background: transparent; }
+QAbstractSpinBox::up-button { subcontrol-position: top right; margin: 1px 1px 0 0; border-top-right-radius: 3px; }
+QAbstractSpinBox::down-button { subcontrol-position: bottom right; margin: 0 1px 1px 0; border-bottom-right-radius: 3px; }
+QAbstractSpinBox::up-button:hover, QAbstractSpinBox::down-button:hover { background: %line; }
+QAbstractSpinBox::up-arrow { image: url(:/icons/chevron_up.svg); width: 10px; height: 10px; }
+QAbstractSpinBox::down-arrow { image: url(:/icons/chevron.svg); width: 10px; height: 10px; }
+QSlider { min-height: 20px; }
+QSlider::groove:horizontal { height: 4px; border-radius: 2px; background: %line; }
+QSlider::sub-page:horizontal { height: 4px; border-radius: 2px; background: %accent; }
+QSlider::handle:horizontal { width: 14px; height: 14px; margin: -6px 0; border-radius: 8px; border: 1px solid %accent; background: %base; }
+QSlider::handle:horizontal:hover, QSlider::handle:horizontal:focus { background: %accent; }
+QSlider::sub-page:horizontal:disabled { background: %line; }
+QSlider::handle:horizontal:disabled { border-color: %line; }
 QLineEdit[refused="true"] { border-color: %error; }
 QComboBox::drop-down { border: 0; width: 20px; }
 QComboBox::down-arrow { image: url(:/icons/chevron.svg); width: 12px; height: 12px; }
@@ -119,6 +139,7 @@ QWidget#settingRow { border-bottom: 1px solid %line; }
 QCheckBox { spacing: 8px; }
 QCheckBox::indicator, QTreeView::indicator { width: 14px; height: 14px; border: 1px solid %quiet; border-radius: 3px; background: %base; }
 QCheckBox::indicator:checked, QTreeView::indicator:checked { background: %accent; border-color: %accent; image: url(:/icons/%tick.svg); }
+QCheckBox::indicator:disabled { border-color: %line; }
 QCheckBox::indicator:focus { border: 2px solid %accent; }
 QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QLabel#key { border: 1px solid %line; border-radius: 4px; padding: 1px 6px; background: %raised; }
@@ -130,6 +151,7 @@ QMenu::item:selected { background: %accent; color: %onaccent; }
 QMenu::item:disabled { color: %quiet; }
 QMenu::separator { height: 1px; background: %line; margin: 4px 8px; }
 QMenu::icon { padding-left: 8px; }
+QMenu::icon:checked { background: %accent; border-radius: 4px; }
 QProgressBar { border: 0; border-radius: 3px; background: %line; max-height: 6px; min-height: 6px; }
 QProgressBar::chunk { border-radius: 3px; background: %accent; }
 QToolTip { background: %raised; color: %text; border: 1px solid %line; padding: 4px; }
@@ -152,6 +174,21 @@ QString styleSheet(const Colours& c) {
     for (const auto& [name, colour] : names) style.replace(name, colour.name());
     return style;
 }
+
+/// Fusion, with a button for what a tool bar has no room for that can be seen as one.
+class Style final : public QProxyStyle {
+  public:
+    Style() : QProxyStyle("Fusion") {}
+    [[nodiscard]] int pixelMetric(PixelMetric metric, const QStyleOption* option,
+                                  const QWidget* widget) const override {
+        return metric == PM_ToolBarExtensionExtent ? 28 : QProxyStyle::pixelMetric(metric, option, widget);
+    }
+    [[nodiscard]] QIcon standardIcon(StandardPixmap name, const QStyleOption* option,
+                                     const QWidget* widget) const override {
+        if (name == SP_ToolBarHorizontalExtensionButton) return icon("more");
+        return QProxyStyle::standardIcon(name, option, widget);
+    }
+};
 
 }  // namespace
 
@@ -194,7 +231,7 @@ void registerResources() {
 void applyTheme(Theme theme) {
     initResources();
     current = theme;
-    QApplication::setStyle(QStyleFactory::create("Fusion"));
+    QApplication::setStyle(new Style);
     QApplication::setPalette(paletteOf(colours()));
     qApp->setStyleSheet(styleSheet(colours()));
 }

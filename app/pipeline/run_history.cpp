@@ -90,16 +90,16 @@ std::vector<FigureChange> figureChanges(const RunFigures& before, const RunFigur
     for (const FigureKind& kind : kFigureKinds) {
         const auto was = before.find(kind.key), is = now.find(kind.key);
         if (was == before.end() || is == now.end()) continue;
-        const bool same = rounded(was->second, kind.decimals) == rounded(is->second, kind.decimals);
-        if (same && kind.better == Better::Neither) continue;
-        changes.push_back({kind, was->second, is->second, verdict(kind, was->second, is->second)});
+        const double change = rounded(is->second, kind.decimals) - rounded(was->second, kind.decimals);
+        if (change == 0.0 && kind.better == Better::Neither) continue;
+        changes.push_back({kind, was->second, is->second, change, verdict(kind, was->second, is->second)});
     }
     return changes;
 }
 
-Result<std::vector<PastRun>> readRunHistory(const std::filesystem::path& file) {
+Result<RunHistory> readRunHistory(const std::filesystem::path& file) {
     std::error_code error;
-    if (!std::filesystem::exists(file, error)) return std::vector<PastRun>();
+    if (!std::filesystem::exists(file, error)) return RunHistory();
     std::ifstream stream(file, std::ios::binary);
     const json document = json::parse(stream, nullptr, false);
     const auto entries = document.is_object() ? document.find("runs") : document.end();
@@ -107,11 +107,15 @@ Result<std::vector<PastRun>> readRunHistory(const std::filesystem::path& file) {
         entries == document.end() || !entries->is_array()) {
         return badData("this is no list of earlier runs", file, 0, "remove it: a new one is made");
     }
-    std::vector<PastRun> runs;
+    RunHistory history;
     for (const json& entry : *entries) {
-        if (auto run = runOf(entry)) runs.push_back(std::move(*run));
+        if (auto run = runOf(entry)) {
+            history.runs.push_back(std::move(*run));
+        } else {
+            ++history.left_out;
+        }
     }
-    return runs;
+    return history;
 }
 
 Result<void> writeRunHistory(const std::vector<PastRun>& runs, const std::filesystem::path& file) {

@@ -46,6 +46,7 @@ struct FigureChange {
     FigureKind kind;
     double before = 0.0;
     double now = 0.0;
+    double change = 0.0;  ///< of the values as they are shown, so that the three add up
     /// > 0 better, < 0 worse, 0 neither, at the decimals that are shown.
     int verdict = 0;
 };
@@ -61,9 +62,12 @@ struct PastRun {
 };
 inline constexpr std::size_t kPastRuns = 10;
 
-/// The runs of a survey, the oldest first; none where there is no file. A run whose settings this version
-/// does not know is left out. Errors: BadData for a file that is something else.
-[[nodiscard]] Result<std::vector<PastRun>> readRunHistory(const std::filesystem::path& file);
+struct RunHistory {
+    std::vector<PastRun> runs;  ///< the oldest first
+    std::size_t left_out = 0;   ///< runs that this version cannot read, with settings of another one perhaps
+};
+/// The runs of a survey; none where there is no file. Errors: BadData for a file that is something else.
+[[nodiscard]] Result<RunHistory> readRunHistory(const std::filesystem::path& file);
 /// Writes the last `kPastRuns` of them: of each the settings that are not defaults. The file is replaced in
 /// one step. Errors: System.
 [[nodiscard]] Result<void> writeRunHistory(const std::vector<PastRun>& runs,

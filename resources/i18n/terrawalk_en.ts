@@ -49,6 +49,16 @@
         </message>
     </context>
     <context>
+        <name>terrawalk::gui::SurveySession</name>
+        <message numerus="yes">
+            <source>%n earlier run(s) cannot be read by this version and are left out.</source>
+            <translation>
+                <numerusform>%n earlier run cannot be read by this version and is left out.</numerusform>
+                <numerusform>%n earlier runs cannot be read by this version and are left out.</numerusform>
+            </translation>
+        </message>
+    </context>
+    <context>
         <name>terrawalk::gui::SurveyTreeModel</name>
         <message numerus="yes">
             <source>%n point(s)</source>

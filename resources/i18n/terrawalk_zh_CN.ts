@@ -4,8 +4,8 @@
     <context>
         <name>AccuracyWords</name>
         <message>
-            <source>Height RMSE %1 against the last run (%2 → %3).</source>
-            <translation>高程 RMSE 较上次 %1（%2 → %3）。</translation>
+            <source>Before: %1 m.</source>
+            <translation>之前：%1 m。</translation>
         </message>
     </context>
     <context>
@@ -3586,6 +3586,14 @@
             <source>DEM, ESRI ASCII</source>
             <translation>DEM，ESRI ASCII</translation>
         </message>
+        <message>
+            <source>Also points that were not used, with their reasons</source>
+            <translation>也包括未使用的点及其原因</translation>
+        </message>
+        <message>
+            <source>For the formats of points; without it, only those that the surface was made of</source>
+            <translation>用于点的格式；不选则只含构成曲面的点</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::FigureTable</name>
@@ -3983,6 +3991,118 @@
         <message>
             <source>Runs, marks, edits and results. The box shows or hides a thing in all views; a click on a result shows it; the right button leaves a run or a mark out, or takes an edit back.</source>
             <translation>测线、标志点、编辑和成果。方框控制在所有视图中显示或隐藏；单击成果即显示；右键可剔除测线或标志点，或撤回编辑。</translation>
+        </message>
+        <message>
+            <source>Opens a survey.json, or the folder that holds one</source>
+            <translation>打开 survey.json 或其所在的文件夹</translation>
+        </message>
+        <message>
+            <source>Makes a survey from array logs and a table of marks</source>
+            <translation>由阵列日志和标志点表新建测量</translation>
+        </message>
+        <message>
+            <source>Samples and the surveys of the last days</source>
+            <translation>示例和最近的测量</translation>
+        </message>
+        <message>
+            <source>Writes the settings and edits beside the survey, for this program and the command line</source>
+            <translation>把设置和编辑写在测量旁边，供本程序和命令行使用</translation>
+        </message>
+        <message>
+            <source>Writes the settings and edits into any file, for other surveys</source>
+            <translation>把设置和编辑写入任意文件，供其他测量使用</translation>
+        </message>
+        <message>
+            <source>Takes the settings of a file over; undo brings yours back</source>
+            <translation>采用文件中的设置；可撤销</translation>
+        </message>
+        <message>
+            <source>Fuses, cleans, makes the surface and checks it</source>
+            <translation>融合、清理、生成曲面并检核</translation>
+        </message>
+        <message>
+            <source>Stops what is running; what was there before stays</source>
+            <translation>停止当前任务；原有结果保留</translation>
+        </message>
+        <message>
+            <source>Figures and settings of the last runs, and the way back to one</source>
+            <translation>最近处理的指标和设置，并可返回</translation>
+        </message>
+        <message>
+            <source>Searches noise parameters that make errors at control marks small</source>
+            <translation>搜索使控制点误差变小的噪声参数</translation>
+        </message>
+        <message>
+            <source>Writes DEM, mesh, tracks and report into a folder</source>
+            <translation>把 DEM、网格、轨迹和报告写入文件夹</translation>
+        </message>
+        <message>
+            <source>Puts the command line that makes the same files on the clipboard</source>
+            <translation>把生成相同文件的命令行复制到剪贴板</translation>
+        </message>
+        <message>
+            <source>Closes the window; changes that are not saved come back next time</source>
+            <translation>关闭窗口；未保存的更改下次会恢复</translation>
+        </message>
+        <message>
+            <source>Takes the last change of settings or edits back</source>
+            <translation>撤回上一次设置或编辑的更改</translation>
+        </message>
+        <message>
+            <source>Makes the change again that was taken back</source>
+            <translation>重做被撤回的更改</translation>
+        </message>
+        <message>
+            <source>Leaves the selected stretch, run or mark out; the logs stay as they are</source>
+            <translation>剔除所选路段、测线或标志点；日志不变</translation>
+        </message>
+        <message>
+            <source>Every setting with its meaning, in groups and with a search</source>
+            <translation>所有设置及其含义，分组并可搜索</translation>
+        </message>
+        <message>
+            <source>Light colours on dark, or dark ones on light</source>
+            <translation>深色或浅色界面</translation>
+        </message>
+        <message>
+            <source>The window in Chinese or in English</source>
+            <translation>窗口用中文或英文</translation>
+        </message>
+        <message>
+            <source>All keys in one table</source>
+            <translation>所有快捷键一览</translation>
+        </message>
+        <message>
+            <source>Click a part of the window then, and it explains itself</source>
+            <translation>随后单击窗口的任一部分即显示说明</translation>
+        </message>
+        <message>
+            <source>Version and licence</source>
+            <translation>版本和许可</translation>
+        </message>
+        <message>
+            <source>Shows the view %1</source>
+            <translation>显示%1视图</translation>
+        </message>
+        <message>
+            <source>Shows or hides the panel %1</source>
+            <translation>显示或隐藏%1面板</translation>
+        </message>
+        <message>
+            <source>Leaves these readings of the selected stretch out, and keeps the others</source>
+            <translation>剔除所选路段的这类读数，保留其他读数</translation>
+        </message>
+        <message>
+            <source>Shows how the heights differ from those of a file</source>
+            <translation>显示与文件中高程的差异</translation>
+        </message>
+        <message>
+            <source>Shows how the heights changed since that run</source>
+            <translation>显示自该次处理以来的高程变化</translation>
+        </message>
+        <message>
+            <source>Takes the layer of changes away</source>
+            <translation>移除变化图层</translation>
         </message>
         <message>
             <source>&amp;Units and numbers</source>
@@ -4855,6 +4975,46 @@
             <source>On the map</source>
             <translation>地图上</translation>
         </message>
+        <message>
+            <source>Turn the view</source>
+            <translation>转动视图</translation>
+        </message>
+        <message>
+            <source>Shift+Arrows</source>
+            <translation>Shift+方向键</translation>
+        </message>
+        <message>
+            <source>Move the view</source>
+            <translation>移动视图</translation>
+        </message>
+        <message>
+            <source>Nearer and farther</source>
+            <translation>拉近和拉远</translation>
+        </message>
+        <message>
+            <source>The first view again</source>
+            <translation>回到初始视图</translation>
+        </message>
+        <message>
+            <source>Ask for no place any more</source>
+            <translation>不再询问位置</translation>
+        </message>
+        <message>
+            <source>Earlier and later</source>
+            <translation>向前和向后</translation>
+        </message>
+        <message>
+            <source>Zoom the time axis</source>
+            <translation>缩放时间轴</translation>
+        </message>
+        <message>
+            <source>In three dimensions</source>
+            <translation>三维视图</translation>
+        </message>
+        <message>
+            <source>On the plots</source>
+            <translation>图表</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::ShowMenu</name>
@@ -4889,6 +5049,18 @@
         <message>
             <source>Colour of the tracks</source>
             <translation>轨迹颜色</translation>
+        </message>
+        <message>
+            <source>Colours the ground by this, on the map and in 3-D</source>
+            <translation>地面按此着色，地图和三维相同</translation>
+        </message>
+        <message>
+            <source>Colours the tracks by this, on the map and in 3-D</source>
+            <translation>轨迹按此着色，地图和三维相同</translation>
+        </message>
+        <message>
+            <source>Draws this on the ground or not, on the map and in 3-D</source>
+            <translation>在地图和三维中绘制或不绘制</translation>
         </message>
     </context>
     <context>
@@ -5099,6 +5271,38 @@
             <source>Earlier runs (%1)…</source>
             <translation>历次处理 (%1)…</translation>
         </message>
+        <message>
+            <source>Effort of the search</source>
+            <translation>搜索工作量</translation>
+        </message>
+        <message>
+            <source>Population</source>
+            <translation>种群</translation>
+        </message>
+        <message>
+            <source>Candidates that the search keeps; auto: 100 for aukf, 8 for other methods</source>
+            <translation>搜索保留的候选数；自动：aukf 为 100，其他方法为 8</translation>
+        </message>
+        <message>
+            <source>Iterations</source>
+            <translation>迭代</translation>
+        </message>
+        <message>
+            <source>How often each of them is tried anew; auto: 1000 for aukf, 6 for other methods</source>
+            <translation>每个候选重新尝试的次数；自动：aukf 为 1000，其他方法为 6</translation>
+        </message>
+        <message>
+            <source>auto</source>
+            <translation>自动</translation>
+        </message>
+        <message>
+            <source>Restarts</source>
+            <translation>重启</translation>
+        </message>
+        <message>
+            <source>Independent searches within one, each of that effort; the best is taken</source>
+            <translation>一次搜索内的独立重启次数，每次工作量相同；取最好的</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::SurveySession</name>
@@ -5171,7 +5375,7 @@
             <translation>%1 的处理</translation>
         </message>
         <message>
-            <source>%1 % of the cells changed beyond 1.96 σ.</source>
+            <source>%1 % of the cells beyond 1.96 σ.</source>
             <translation>%1 % 的格网变化超出 1.96 σ。</translation>
         </message>
         <message>
@@ -5181,6 +5385,12 @@
         <message>
             <source>The settings of the run of %1 are back: process again to see its results.</source>
             <translation>已恢复 %1 处理的设置：重新处理即可看到其结果。</translation>
+        </message>
+        <message numerus="yes">
+            <source>%n earlier run(s) cannot be read by this version and are left out.</source>
+            <translation>
+                <numerusform>%n 次早前的处理本版本无法读取，已略去。</numerusform>
+            </translation>
         </message>
         <message>
             <source>Less %1: median %2, RMS %3.</source>

@@ -6,12 +6,15 @@
 #include <QDockWidget>
 #include <QElapsedTimer>
 #include <QLineEdit>
+#include <QMenu>
+#include <QMenuBar>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QSettings>
 #include <QStandardPaths>
 #include <QTabWidget>
 #include <QTest>
+#include <QToolButton>
 #include <QTreeView>
 #include <cstdio>
 
@@ -136,6 +139,14 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
         dialog->close();
         QTest::qWait(50);
     }
+    for (QAction* top : window.menuBar()->actions()) {
+        QMenu* menu = top->menu();
+        if (!menu->actions().contains(window.findChild<QAction*>("undo"))) continue;
+        menu->popup(window.mapToGlobal(QPoint(40, 20)));
+        QTest::qWait(100);
+        camera.shoot("menu_edit", menu);
+        menu->close();
+    }
     for (const char* name : {"export", "shortcuts", "about"}) {
         window.findChild<QAction*>(name)->trigger();
         QTest::qWait(150);
@@ -152,6 +163,9 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
     session.changeSetting("fusion.gnss.sigma_fixed_m", "0.05");
     session.changeSetting("surface.method", "kriging");
     camera.shoot("steps_changed");
+    for (QToolButton* fold : window.findChildren<QToolButton*>("further"))
+        if (fold->isCheckable()) fold->click();
+    camera.shoot("steps_search");
     auto* steps = window.findChild<QScrollArea*>("steps_scroll");
     steps->verticalScrollBar()->setValue(steps->verticalScrollBar()->maximum());
     camera.shoot("steps_check");

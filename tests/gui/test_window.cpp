@@ -9,6 +9,7 @@
 #include <QLineEdit>
 #include <QListView>
 #include <QMenu>
+#include <QMenuBar>
 #include <QMimeData>
 #include <QPrinter>
 #include <QProcess>
@@ -22,6 +23,7 @@
 #include <QTableWidget>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QToolBar>
 #include <QToolButton>
 #include <QTreeView>
 #include <algorithm>
@@ -121,6 +123,8 @@ class WindowTest : public QObject {
     void changeSinceAnEarlierRunIsALayerOfBothViews();
     void bothViewsFollowOneState();
     void everyPartExplainsItself();
+    void everyActionOfTheMenusHasAStatusTip();
+    void toolBarsAndMenusShowWhatTheyHold();
     void tabReachesEveryControl();
     void chineseKnowsSettingsStepsAndSentences();
     void orchardNeverSilencesTheWindow();
@@ -548,7 +552,13 @@ void WindowTest::sizeOfCellsIsAutoUntilOneIsEntered() {
 
 void WindowTest::allSettingsAreSearchedMarkedAndSetBack() {
     openSample();
+    QElapsedTimer timer;
+    timer.start();
     action("settings").trigger();
+    qInfo("all settings shown in %lld ms", timer.restart());
+    QVERIFY(session().changeSetting("fusion.smooth", "false"));
+    qInfo("one changed in %lld ms", timer.restart());
+    action("undo").trigger();
     auto* dialog = window_->findChild<SettingsDialog*>();
     QVERIFY(dialog != nullptr);
     const auto shown = [&] {
@@ -798,11 +808,27 @@ void WindowTest::exportDialogRefusesWhatCannotBe() {
     QVERIFY(go->isEnabled());
     QVERIFY(dialog->findChild<QLabel*>("command")->text().contains("terrawalk process"));
     QTest::mouseClick(dialog->findChild<QWidget*>("format_las_points"), Qt::LeftButton, {}, QPoint(8, 8));
-    QVERIFY(dialog->findChild<QLabel*>("command")->text().contains("--points las"));
+    const auto* command = dialog->findChild<QLabel*>("command");
+    QVERIFY(command->text().contains("--points las"));
+    QVERIFY(!command->text().contains("--all-points"));
+    auto* all_points = dialog->findChild<QCheckBox*>("all_points");
+    QVERIFY(all_points->isEnabled());
+    all_points->setChecked(true);
+    QVERIFY(command->text().endsWith("--points las --all-points"));
+    const QString export_line = command->text().section('\n', 1);
     QTest::mouseClick(go, Qt::LeftButton);
     QTRY_VERIFY_WITH_TIMEOUT(fs::exists(scratch_->filePath("result/dem.tif").toStdString()) && idle(),
                              kLong_ms);
     QVERIFY(fs::exists(scratch_->filePath("result-export/ground_points.las").toStdString()));
+    // The command that was shown makes the same file.
+    const QByteArray all = bytesOf(scratch_->filePath("result-export/ground_points.las"));
+    QProcess export_command;
+    export_command.start(TERRAWALK_PROGRAM, QProcess::splitCommand(export_line).mid(1) +
+                                                QStringList{"-o", scratch_->filePath("again"), "-q"});
+    QVERIFY(export_command.waitForFinished(kLong_ms));
+    QCOMPARE(export_command.exitCode(), 0);
+    QVERIFY(!all.isEmpty());
+    QVERIFY(bytesOf(scratch_->filePath("again/ground_points.las")) == all);
     // The survey's own folder must not be replaced.
     session().exportTo(sample_.toStdString());
     QTRY_VERIFY_WITH_TIMEOUT(idle(), kLong_ms);
@@ -945,6 +971,13 @@ void WindowTest::runsOfReadOnlySurveysAndBrokenListsAreNoHarm() {
     QVERIFY(messages().contains("survey.runs.json"));
     QVERIFY(session().runs().empty());
     QVERIFY(!action("runs").isEnabled());
+    // What another version wrote is left out, and said.
+    QVERIFY(broken.open(QIODevice::WriteOnly | QIODevice::Truncate));
+    broken.write(R"({"format": "terrawalk-runs 1", "runs": [{"finished": "2026-05-01T08:00:00.000Z",
+        "program": "Terrawalk 9", "figures": {}, "settings": {"surface.not_yet": "1"}}]})");
+    broken.close();
+    openSample();
+    QTRY_VERIFY(idle() && messages().contains("1 earlier run cannot be read"));
 }
 
 void WindowTest::figuresStandBesideThoseOfTheRunBefore() {
@@ -992,6 +1025,11 @@ void WindowTest::keysAloneSuffice() {
     QCOMPARE(map.transform().pixels_per_m, scale);
     QTest::keyClick(window_, Qt::Key_F1);
     QVERIFY(QApplication::activeModalWidget() != nullptr);
+    QStringList listed;
+    for (const QLabel* label : QApplication::activeModalWidget()->findChildren<QLabel*>())
+        listed << label->text();
+    for (const char* what : {"Move the map", "Turn the view", "Zoom the time axis", "All settings"})
+        QVERIFY2(listed.contains(what), what);
     QTest::keyClick(QApplication::activeModalWidget(), Qt::Key_Escape);
     QTRY_VERIFY(QApplication::activeModalWidget() == nullptr);
     // Every button and field can be reached and has a name for a screen reader.
@@ -1218,11 +1256,24 @@ void WindowTest::tuningRefusesWhatItCannotDoAndIsPlotted() {
     QVERIFY2(messages().contains("raw"), qPrintable(messages()));
     QVERIFY(!session().settings().tuned());
     QVERIFY(session().changeSetting("fusion.method", "ukf"));
-    window_->findChild<QComboBox*>("optimiser")->setCurrentText("pso");
+    auto* optimiser = window_->findChild<QComboBox*>("optimiser");
+    optimiser->setCurrentIndex(optimiser->findText("Particle swarm"));
+    // The effort is folded away, and what is usual until it is chosen.
+    auto* population = window_->findChild<QSpinBox*>("population");
+    QVERIFY(!population->isVisible());
+    QCOMPARE(population->text(), QString("auto"));
+    for (QToolButton* fold : window_->findChildren<QToolButton*>("further"))
+        if (fold->isCheckable()) fold->click();
+    QVERIFY(population->isVisible());
+    population->setValue(9);
+    window_->findChild<QSpinBox*>("iterations")->setValue(2);
+    window_->findChild<QSpinBox*>("restarts")->setValue(2);
     window_->findChild<QSpinBox*>("repeats")->setValue(2);
     QTest::mouseClick(window_->findChild<QPushButton*>("step_tune"), Qt::LeftButton);
     QTRY_VERIFY_WITH_TIMEOUT(idle() && session().tuning()->traces.size() == 2, kLong_ms);
     QVERIFY(session().settings().tuned());
+    QCOMPARE(session().settings().config().tuning->population, std::size_t{9});
+    QCOMPARE(session().settings().config().tuning->iterations, std::size_t{2});
     auto* plots = window_->findChild<PlotsView*>();
     plots->setPlot(PlotKind::Convergence);
     const Plot& plot = plots->canvas().plot();
@@ -1347,6 +1398,61 @@ void WindowTest::everyPartExplainsItself() {
         QVERIFY2(!dock->whatsThis().isEmpty(), qPrintable(dock->objectName()));
     for (const QAction* one : window_->findChild<MapPanel*>()->toolActions())
         QVERIFY2(!one->whatsThis().isEmpty(), qPrintable(one->text()));
+}
+
+void WindowTest::everyActionOfTheMenusHasAStatusTip() {
+    processed();
+    std::function<void(const QList<QAction*>&)> visit = [&](const QList<QAction*>& actions) {
+        for (const QAction* one : actions) {
+            if (one->isSeparator()) continue;
+            if (one->menu() != nullptr) {
+                if (one->menu()->objectName() != "recent") visit(one->menu()->actions());
+                continue;
+            }
+            QVERIFY2(!one->statusTip().isEmpty() || !one->isEnabled(), qPrintable(one->text()));
+            QVERIFY2(one->statusTip() != QString(one->text()).remove('&').remove("…"),
+                     qPrintable(one->text()));
+        }
+    };
+    visit(window_->menuBar()->actions());
+}
+
+void WindowTest::toolBarsAndMenusShowWhatTheyHold() {
+    processed();
+    for (const bool dark : {false, true}) {
+        if (dark) action("theme").trigger();
+        // The button for what a narrow tool bar has no room for is as wide as the others.
+        auto* bar = window_->findChild<QToolBar*>("map_bar");
+        auto* more = bar->findChild<QToolButton*>("qt_toolbar_ext_button");
+        QTRY_VERIFY(more->isVisible());
+        QVERIFY(more->width() >= 24);
+        // The icon of the tool that is in use stands out from the menu.
+        QMenu* edit = nullptr;
+        for (QAction* top : window_->menuBar()->actions())
+            if (top->menu()->actions().contains(&action("undo"))) edit = top->menu();
+        QVERIFY(edit != nullptr);
+        edit->popup(window_->mapToGlobal(QPoint(40, 20)));
+        QVERIFY(QTest::qWaitForWindowExposed(edit));
+        const QRect place = edit->actionGeometry(&action("tool_pan"));
+        const QImage picture = edit->grab(QRect(place.topLeft(), QSize(32, place.height()))).toImage();
+        const QImage other = edit->grab(QRect(edit->actionGeometry(&action("tool_measure")).topLeft(),
+                                              QSize(32, place.height())))
+                                 .toImage();
+        const auto contrast = [](const QImage& image) {
+            int darkest = 255, lightest = 0;
+            for (int y = 4; y < image.height() - 4; ++y) {
+                for (int x = 4; x < image.width() - 4; ++x) {
+                    const int grey = qGray(image.pixel(x, y));
+                    darkest = std::min(darkest, grey);
+                    lightest = std::max(lightest, grey);
+                }
+            }
+            return lightest - darkest;
+        };
+        edit->close();
+        QVERIFY2(contrast(picture) > 90, qPrintable(QString::number(contrast(picture))));
+        QVERIFY2(contrast(other) > 90, qPrintable(QString::number(contrast(other))));
+    }
 }
 
 /// From where the focus is, the tab key comes to each control that can be seen, and back.

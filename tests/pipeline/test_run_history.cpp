@@ -23,11 +23,11 @@ TEST(RunHistory, ComesBackAsItWasWritten) {
     ASSERT_TRUE(writeRunHistory({first, runWith("fusion.method=ukf", 0.25)}, file));
     const auto read = readRunHistory(file);
     ASSERT_TRUE(read) << read.error().text();
-    ASSERT_EQ(read->size(), 2u);
-    EXPECT_EQ(toJson(read->front().config), toJson(first.config));
-    EXPECT_EQ(read->front().finished, first.finished);
-    EXPECT_EQ(read->front().program, first.program);
-    EXPECT_EQ(read->back().figures, (RunFigures{{"height_rmse_m", 0.25}}));
+    ASSERT_EQ(read->runs.size(), 2u);
+    EXPECT_EQ(toJson(read->runs.front().config), toJson(first.config));
+    EXPECT_EQ(read->runs.front().finished, first.finished);
+    EXPECT_EQ(read->runs.front().program, first.program);
+    EXPECT_EQ(read->runs.back().figures, (RunFigures{{"height_rmse_m", 0.25}}));
 }
 
 TEST(RunHistory, KeepsTheLastRunsOnly) {
@@ -39,15 +39,15 @@ TEST(RunHistory, KeepsTheLastRunsOnly) {
     ASSERT_TRUE(writeRunHistory(runs, file));
     const auto read = readRunHistory(file);
     ASSERT_TRUE(read);
-    ASSERT_EQ(read->size(), kPastRuns);
-    EXPECT_EQ(read->front().figures.at("height_rmse_m"), 3.0);
+    ASSERT_EQ(read->runs.size(), kPastRuns);
+    EXPECT_EQ(read->runs.front().figures.at("height_rmse_m"), 3.0);
 }
 
 TEST(RunHistory, NoFileIsNoRunAndAnotherFileIsAnError) {
     const test::TemporaryFolder folder;
     const auto none = readRunHistory(folder / "none.json");
     ASSERT_TRUE(none);
-    EXPECT_TRUE(none->empty());
+    EXPECT_TRUE(none->runs.empty());
     for (const char* bytes :
          {"", "[1]", "{}", R"({"format":"terrawalk-runs 1"})", R"({"format":7,"runs":[]})"}) {
         const auto file = folder / "bad.json";
@@ -57,7 +57,7 @@ TEST(RunHistory, NoFileIsNoRunAndAnotherFileIsAnError) {
     EXPECT_FALSE(writeRunHistory({}, folder / "no" / "such" / "place.json"));
 }
 
-TEST(RunHistory, RunsThatThisVersionDoesNotKnowAreLeftOut) {
+TEST(RunHistory, CountsRunsThatThisVersionCannotRead) {
     const test::TemporaryFolder folder;
     const auto file = folder / "survey.runs.json";
     std::ofstream(file) << R"({"format":"terrawalk-runs 1","runs":[1,{"finished":"x"},
@@ -65,8 +65,9 @@ TEST(RunHistory, RunsThatThisVersionDoesNotKnowAreLeftOut) {
         {"finished":"t","program":"p","figures":{"later":1},"settings":{"surface.cell_m":"2"}}]})";
     const auto read = readRunHistory(file);
     ASSERT_TRUE(read) << read.error().text();
-    ASSERT_EQ(read->size(), 1u);
-    EXPECT_EQ(read->front().config.surface.cell_m, 2.0);
+    ASSERT_EQ(read->runs.size(), 1u);
+    EXPECT_EQ(read->left_out, 3u);
+    EXPECT_EQ(read->runs.front().config.surface.cell_m, 2.0);
 }
 
 TEST(RunHistory, TellsBetterFromWorseAtTheDecimalsThatAreShown) {
@@ -80,6 +81,9 @@ TEST(RunHistory, TellsBetterFromWorseAtTheDecimalsThatAreShown) {
     EXPECT_EQ(changes[1].verdict, 1);  // nearer zero
     EXPECT_EQ(changes[2].kind.key, "area_m2");
     EXPECT_EQ(changes[2].verdict, 0);
+    EXPECT_EQ(changes[0].change, 0.0);
+    EXPECT_NEAR(figureChanges({{"height_rmse_m", 0.1276}}, {{"height_rmse_m", 0.3074}}).front().change, 0.179,
+                1e-12);
     EXPECT_EQ(figureChanges(now, {{"height_rmse_m", 0.2}}).front().verdict, -1);
 }
 
