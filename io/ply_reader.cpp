@@ -120,6 +120,7 @@ class PlyReader {
         if (!origin_.isZero(0.0)) {
             for (Eigen::Vector3d& point : points_.points) point += origin_;
         }
+        leaveOutUnused(points_, left_out_);
         return std::move(points_);
     }
 
@@ -233,6 +234,7 @@ class PlyReader {
             if (property.size() == 1 && property[0] >= 'x' && property[0] <= 'z') {
                 axes_[static_cast<std::size_t>(property[0] - 'x')] = {i, offset, properties_[i].type, true};
             }
+            if (property == "used") used_ = {i, offset, properties_[i].type, true};
             offset += bytesOf(properties_[i].type);
         }
         record_bytes_ = offset;
@@ -260,6 +262,10 @@ class PlyReader {
         const auto line = nextLine();
         if (!line) return bad(fmt::format("the file ends after {} of {} vertices", i, count_));
         const auto word = words(*line);
+        if (used_.found && used_.index < word.size() && word[used_.index] == "0") {
+            ++left_out_;
+            return {};
+        }
         Eigen::Vector3d point;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::size_t column = axes_[axis].index;
@@ -279,7 +285,12 @@ class PlyReader {
             point[static_cast<Eigen::Index>(axis)] =
                 numberAt(bytes_.data() + at_ + axes_[axis].offset, axes_[axis].type, swapped());
         }
+        const char* const used = bytes_.data() + at_ + used_.offset;
         at_ += record_bytes_;
+        if (used_.found && numberAt(used, used_.type, swapped()) == 0.0) {
+            ++left_out_;
+            return {};
+        }
         return take(i, point);
     }
 
@@ -298,6 +309,8 @@ class PlyReader {
     std::size_t count_ = 0;
     std::vector<Property> properties_;
     std::array<Axis, 3> axes_{};
+    Axis used_;
+    std::size_t left_out_ = 0;
     std::size_t record_bytes_ = 0;
     std::size_t face_count_ = 0;
     bool faces_follow_ = false;  ///< the vertices, with nothing between

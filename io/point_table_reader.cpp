@@ -15,6 +15,11 @@ namespace {
 constexpr const char* kHeaderCure =
     "name the columns x, y and z, each with _m or _ft where its unit is to be known";
 
+bool isDegrees(std::string_view name) {
+    const std::string_view start = name.substr(0, 3);
+    return start == "lon" || start == "lat" || start == "Lon" || start == "Lat";
+}
+
 class PointTableParser {
   public:
     PointTableParser(const std::filesystem::path& file, std::size_t bytes) : file_(file), bytes_(bytes) {}
@@ -39,7 +44,7 @@ class PointTableParser {
     }
 
     Result<ScatteredPoints> finish() {
-        points_.in_file = points_.points.size();
+        leaveOutUnused(points_, left_out_);
         return std::move(points_);
     }
 
@@ -62,7 +67,7 @@ class PointTableParser {
     /// returns where the next one begins; null when the line is of another form, which takeLine() looks at.
     const char* takePlainLine(const char* at, const char* end) {
         if (roles_.empty() || *at == '#' || *at == ' ' || *at == '\t') return nullptr;
-        std::array<double, 4> numbers{};
+        std::array<double, kRoles> numbers{};
         for (std::size_t field = 0; field < roles_.size(); ++field) {
             if (field > 0 && *at++ != separator_) return nullptr;
             if (roles_[field] != kNoRole) {
@@ -75,7 +80,7 @@ class PointTableParser {
             }
         }
         if (*at != separator_ && *at != '\n' && *at != '\r') return nullptr;
-        if (numbers[3] < 0.0) return nullptr;
+        if (numbers[3] < 0.0 || (place_[4] && numbers[4] == 0.0)) return nullptr;
         points_.points.emplace_back(numbers[0], numbers[1], numbers[2]);
         if (place_[3]) points_.sigmas.push_back(numbers[3]);
         return afterLineEnd(findLineEnd(at, end), end);
@@ -100,11 +105,18 @@ class PointTableParser {
             return bad(fmt::format("{} fields, but column {} is needed", fields_.size(), fields_wanted_),
                        "one line for each point, with a dot as decimal sign");
         }
-        std::array<double, 4> numbers{};
-        for (std::size_t k = 0; k < place_.size(); ++k) {
+        if (place_[4] && fields_[*place_[4]] == "0") {
+            ++left_out_;
+            return {};
+        }
+        std::array<double, kRoles> numbers{};
+        for (std::size_t k = 0; k < 4; ++k) {
             if (!place_[k]) continue;
             const auto number = parseNumber(fields_[*place_[k]]);
-            if (!number) return bad(fmt::format("{} is no number", inQuotes(fields_[*place_[k]])));
+            if (!number) {
+                return bad(fmt::format("{} in column {} is no number", inQuotes(fields_[*place_[k]]),
+                                       *place_[k] + 1));
+            }
             numbers[k] = *number;
         }
         points_.points.emplace_back(numbers[0], numbers[1], numbers[2]);
@@ -123,7 +135,7 @@ class PointTableParser {
                                                                  : ' ';
         split(line);
         if (fields_.size() >= 3 && parseNumber(fields_[0]) && parseNumber(fields_[1])) {
-            place_ = {0, 1, 2, std::nullopt};
+            place_ = {0, 1, 2, std::nullopt, std::nullopt};
             fields_wanted_ = 3;
             points_.notes.emplace_back(
                 "the table has no header: its first three columns are taken for x, y and z");
@@ -147,7 +159,12 @@ class PointTableParser {
             }
             if (named->unit) points_.unit = named->unit;
         }
-        if (!place_[0] || !place_[1] || !place_[2]) return bad("the header names no x, y and z", kHeaderCure);
+        if (!place_[0] || !place_[1] || !place_[2]) {
+            const bool degrees = std::any_of(fields_.begin(), fields_.end(), isDegrees);
+            return bad(
+                degrees ? "the points are in degrees" : "the header names no x, y and z",
+                degrees ? "project them to metres first, e.g. with QGIS or ogr2ogr -t_srs" : kHeaderCure);
+        }
         setRoles();
         return {};
     }
@@ -171,8 +188,9 @@ class PointTableParser {
     std::size_t bytes_;
     bool room_made_ = false;
     ScatteredPoints points_;
-    std::array<std::optional<std::size_t>, 4> place_{};  ///< by PointColumn
-    static constexpr std::size_t kNoRole = 4;
+    std::array<std::optional<std::size_t>, 5> place_{};  ///< by PointColumn
+    static constexpr std::size_t kRoles = 5, kNoRole = kRoles;
+    std::size_t left_out_ = 0;
     std::vector<std::size_t> roles_;  ///< by column, as far as one is needed: which number, or none
     std::vector<std::string_view> fields_;
     std::size_t fields_wanted_ = 0;

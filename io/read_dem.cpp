@@ -10,6 +10,7 @@
 #include <new>
 
 #include "io/gdal_support.hpp"
+#include "io/write_products.hpp"
 
 namespace terrawalk {
 namespace {
@@ -77,7 +78,9 @@ Result<DemFile> readDem(const std::filesystem::path& file, std::stop_token stop)
     const auto geometry = geometryOf(*dataset, file);
     if (!geometry) return tl::unexpected(geometry.error());
     try {
-        DemFile dem{{*geometry, std::vector<float>(geometry->size())}, std::move(*crs)};
+        DemFile dem{{*geometry, std::vector<float>(geometry->size())}, std::move(*crs), {}};
+        if (const char* made_of = dataset->GetMetadataItem(kPointsSha256); made_of != nullptr)
+            dem.points_sha256 = made_of;
         if (auto done = readBand(*dataset->GetRasterBand(1), dem.grid, errors, file, stop); !done) {
             return tl::unexpected(done.error());
         }

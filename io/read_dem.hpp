@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <stop_token>
+#include <string>
 
 #include "io/coordinate_system.hpp"
 #include "survey/elevation_grid.hpp"
@@ -13,6 +14,8 @@ namespace terrawalk {
 struct DemFile {
     ElevationGrid grid;
     CoordinateSystem crs;  ///< a local one in metres where the file has none
+    /// Of the file of points that it was made from, where Terrawalk made it and wrote so; empty: not told.
+    std::string points_sha256;
 };
 
 /// Reads any raster that GDAL reads. Errors: BadData for a file without raster, without place, turned, with

@@ -23,7 +23,7 @@ std::optional<NamedColumn> namedColumn(std::string_view name) {
             break;
         }
     }
-    constexpr std::array<std::pair<std::string_view, PointColumn>, 15> kNames{
+    constexpr std::array<std::pair<std::string_view, PointColumn>, 16> kNames{
         {{"x", PointColumn::X},
          {"e", PointColumn::X},
          {"east", PointColumn::X},
@@ -38,11 +38,19 @@ std::optional<NamedColumn> namedColumn(std::string_view name) {
          {"height", PointColumn::Z},
          {"elevation", PointColumn::Z},
          {"sigma_z", PointColumn::Sigma},
-         {"sigma_v", PointColumn::Sigma}}};
+         {"sigma_v", PointColumn::Sigma},
+         {"used", PointColumn::Used}}};
     for (const auto& [known, column] : kNames) {
         if (text == known) return NamedColumn{column, unit};
     }
     return std::nullopt;
+}
+
+void leaveOutUnused(ScatteredPoints& points, std::size_t left_out) {
+    points.in_file = points.points.size() + left_out;
+    if (left_out == 0) return;
+    points.notes.push_back(
+        fmt::format("{} of {} points are marked as not used and left out", left_out, points.in_file));
 }
 
 Result<ScatteredPoints> readPoints(const std::filesystem::path& file, const PointReadOptions& options,

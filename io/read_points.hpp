@@ -38,7 +38,8 @@ struct PointReadOptions {
 /// others          points of a vector file that GDAL reads (GeoPackage, Shapefile, GeoJSON, ...), heights
 /// from
 ///                 the geometry or a field z, h, height or elevation
-/// Errors: BadData with file, line and cure; System; Cancelled.
+/// A table, PLY or vector file with a column `used`, such as Terrawalk writes, has 0 there for points that
+/// are not ground: they are left out. Errors: BadData with file, line and cure; System; Cancelled.
 [[nodiscard]] Result<ScatteredPoints> readPoints(const std::filesystem::path& file,
                                                  const PointReadOptions& options, Progress& progress,
                                                  std::stop_token stop);

@@ -44,6 +44,7 @@ class VectorPoints {
             const auto named = namedColumn(fields.GetFieldDefn(i)->GetNameRef());
             if (named && named->column == PointColumn::Z && height_field_ < 0) height_field_ = i;
             if (named && named->column == PointColumn::Sigma) sigma_field_ = i;
+            if (named && named->column == PointColumn::Used) used_field_ = i;
         }
     }
 
@@ -61,7 +62,7 @@ class VectorPoints {
             if (!feature) break;
             if (auto taken = take(*feature); !taken) return tl::unexpected(taken.error());
         }
-        points_.in_file = points_.points.size();
+        leaveOutUnused(points_, left_out_);
         if (without_place_ > 0) {
             points_.notes.push_back(fmt::format("{} features have no point", without_place_));
         }
@@ -70,6 +71,11 @@ class VectorPoints {
 
   private:
     Result<void> take(const OGRFeature& feature) {
+        if (used_field_ >= 0 && feature.IsFieldSetAndNotNull(used_field_) != FALSE &&
+            std::string_view(feature.GetFieldAsString(used_field_)) == "0") {
+            ++left_out_;
+            return {};
+        }
         const OGRGeometry* const geometry = feature.GetGeometryRef();
         const OGRwkbGeometryType type =
             geometry == nullptr ? wkbNone : wkbFlatten(geometry->getGeometryType());
@@ -111,6 +117,8 @@ class VectorPoints {
     std::filesystem::path file_;
     int height_field_ = -1;
     int sigma_field_ = -1;
+    int used_field_ = -1;
+    std::size_t left_out_ = 0;
     std::size_t without_place_ = 0;
     ScatteredPoints points_;
 };

@@ -13,6 +13,7 @@
 #include <limits>
 #include <memory>
 #include <system_error>
+#include <type_traits>
 
 #include "io/gdal_support.hpp"
 #include "io/replacing_file.hpp"
@@ -23,6 +24,7 @@ namespace terrawalk {
 namespace {
 
 constexpr float kNoData = -9999.0F;
+constexpr std::uint8_t kNoClass = 0;
 constexpr std::size_t kTileSide = 512;
 
 /// Only what writing needs: registering all drivers takes a fifth of a second.
@@ -49,8 +51,9 @@ std::array<double, 6> geotransform(const GridGeometry& geometry) {
 /// One band of a file.
 struct Band {
     std::string quantity;
-    std::vector<float> cells;  ///< as they stand in the file
-    std::size_t known = 0;     ///< cells with a value; the rest is about these
+    std::vector<float> cells;         ///< as they stand in the file; or
+    std::vector<std::uint8_t> codes;  ///< of classes
+    std::size_t known = 0;            ///< cells with a value; the rest is about these
     double least = 0.0, greatest = 0.0, mean = 0.0, sd = 0.0;
 };
 
@@ -120,11 +123,31 @@ Result<Band> bandOf(std::string quantity, std::vector<float> heights_m, const st
     return band;
 }
 
+/// The same of classes.
+Result<void> asCodes(Band& band, const std::filesystem::path& file) {
+    band.codes.reserve(band.cells.size());
+    for (const float cell : band.cells) {
+        const bool none = cell == kNoData;
+        if (!none && !(cell >= 1.0F && cell <= 255.0F && cell == std::round(cell))) {
+            return badData(fmt::format("{} names no class", cell), file);
+        }
+        band.codes.push_back(none ? kNoClass : static_cast<std::uint8_t>(cell));
+    }
+    band.cells = {};
+    return {};
+}
+
 bool addBand(GDALDataset& dataset, Band& band, const std::string& unit) {
+    const bool classes = !band.codes.empty();
+    const void* const data = classes ? static_cast<const void*>(band.codes.data()) : band.cells.data();
     CPLStringList memory;
-    memory.SetNameValue("DATAPOINTER", fmt::format("{}", fmt::ptr(band.cells.data())).c_str());
-    if (dataset.AddBand(GDT_Float32, memory.List()) != CE_None) return false;
+    memory.SetNameValue("DATAPOINTER", fmt::format("{}", fmt::ptr(data)).c_str());
+    if (dataset.AddBand(classes ? GDT_Byte : GDT_Float32, memory.List()) != CE_None) return false;
     GDALRasterBand* const raster = dataset.GetRasterBand(dataset.GetRasterCount());
+    if (classes) {
+        raster->SetDescription(band.quantity.c_str());
+        return raster->SetNoDataValue(double{kNoClass}) == CE_None;
+    }
     raster->SetDescription(fmt::format("{} ({})", band.quantity, unit).c_str());
     const double percent = 100.0 * static_cast<double>(band.known) / static_cast<double>(band.cells.size());
     return raster->SetUnitType(unit.c_str()) == CE_None &&
@@ -180,7 +203,7 @@ Result<void> writeCog(GDALDataset& source, const GdalErrors& errors, std::stop_t
                       const std::filesystem::path& to, const std::filesystem::path& file) {
     CPLStringList options;
     options.SetNameValue("COMPRESS", "DEFLATE");
-    options.SetNameValue("PREDICTOR", "YES");
+    if (source.GetRasterBand(1)->GetRasterDataType() == GDT_Float32) options.SetNameValue("PREDICTOR", "YES");
     options.SetNameValue("LEVEL", "1");  // 6 takes twice as long for a file smaller by a fifteenth
     options.SetNameValue("BLOCKSIZE", std::to_string(kTileSide).c_str());
     options.SetNameValue("OVERVIEWS", "AUTO");  // those of the source
@@ -207,15 +230,17 @@ bool sameCrs(const GDALDataset& one, const GDALDataset& other) {
 }
 
 /// Tile by tile, past GDAL's cache.
-bool sameCells(GDALDataset& dataset, int band, const std::vector<float>& cells, const std::stop_token& stop) {
+template <class T>
+bool sameCells(GDALDataset& dataset, int band, const std::vector<T>& cells, const std::stop_token& stop) {
     const auto columns = static_cast<std::size_t>(dataset.GetRasterXSize());
     const auto rows = static_cast<std::size_t>(dataset.GetRasterYSize());
     GDALRasterBand& raster = *dataset.GetRasterBand(band);
     int width = 0, height = 0;
     raster.GetBlockSize(&width, &height);
-    if (raster.GetRasterDataType() != GDT_Float32 || width <= 0 || height <= 0) return false;
+    constexpr GDALDataType kType = std::is_same_v<T, float> ? GDT_Float32 : GDT_Byte;
+    if (raster.GetRasterDataType() != kType || width <= 0 || height <= 0) return false;
     const auto tile_columns = static_cast<std::size_t>(width), tile_rows = static_cast<std::size_t>(height);
-    std::vector<float> tile(tile_columns * tile_rows);
+    std::vector<T> tile(tile_columns * tile_rows);
     for (std::size_t top = 0; top < rows; top += tile_rows) {
         for (std::size_t left = 0; left < columns; left += tile_columns) {
             if (stop.stop_requested()) return true;  // who asks looks at the token next
@@ -260,13 +285,16 @@ Result<void> verify(const GDALDataset& source, const GridGeometry& geometry, con
         return refused("another place");
     }
     int has_no_data = FALSE;
-    if (dataset->GetRasterBand(1)->GetNoDataValue(&has_no_data) != double{kNoData} || has_no_data == FALSE) {
+    const double no_data = bands.front().codes.empty() ? double{kNoData} : double{kNoClass};
+    if (dataset->GetRasterBand(1)->GetNoDataValue(&has_no_data) != no_data || has_no_data == FALSE) {
         return refused("another nodata value");
     }
     if (!sameCrs(source, *dataset)) return refused("GeoTIFF cannot hold this CRS");
     for (std::size_t b = 0; b < bands.size(); ++b) {
-        if (!sameCells(*dataset, static_cast<int>(b) + 1, bands[b].cells, stop))
-            return refused("other heights");
+        const int at = static_cast<int>(b) + 1;
+        const bool same = bands[b].codes.empty() ? sameCells(*dataset, at, bands[b].cells, stop)
+                                                 : sameCells(*dataset, at, bands[b].codes, stop);
+        if (!same) return refused("other heights");
     }
     if (stop.stop_requested()) return cancelled();
     return {};
@@ -317,6 +345,9 @@ Result<void> writeDem(ElevationGrid grid, const DemDescription& description,
     if (auto checked = checkGrid(grid, file); !checked) return checked;
     auto band = bandOf(description.quantity, std::move(grid.heights_m), file);
     if (!band) return tl::unexpected(band.error());
+    if (description.classes) {
+        if (auto done = asCodes(*band, file); !done) return done;
+    }
     std::vector<Band> bands;
     bands.push_back(std::move(*band));
     return writeBands(grid.geometry, std::move(bands), description, file, std::move(stop));

@@ -19,6 +19,9 @@
 namespace terrawalk {
 
 /// What a DEM file says of itself beside the heights.
+/// Metadata item of a DEM: hash of the file of points that it was made from.
+inline constexpr const char* kPointsSha256 = "POINTS_SHA256";
+
 struct DemDescription {
     std::string crs_wkt2;                                       ///< as MapProjection::wkt2() gives it
     std::string vertical_datum;                                 ///< metadata VERTICAL_DATUM
@@ -27,7 +30,8 @@ struct DemDescription {
     std::vector<std::pair<std::string, std::string>> metadata;  ///< further items, e.g. METHOD
     std::string quantity = "Elevation";                         ///< what the band holds
     std::string unit = "m";                                     ///< of the band: m, ft or US-ft
-    bool classes = false;  ///< values are names of classes: overviews show the most frequent, not a mean
+    /// Values name classes, 1 to 255: a file of bytes with 0 for none, and overviews show the most frequent.
+    bool classes = false;
 };
 
 /// Writes a Cloud-Optimized GeoTIFF: Float32, nodata -9999, statistics, averaged overviews,

@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t kAsprsCheckMarks = 30;
 constexpr std::size_t kNamesInASentence = 12;
 constexpr double kNotableBiasShare = 0.5;  // of the RMSE
+constexpr std::size_t kMostNamed = 10;     // a list that nobody reads to its end helps nobody
 constexpr std::size_t kNssdaCheckMarks = 20;
 constexpr std::size_t kFewForCoverage = 20;
 
@@ -262,12 +263,18 @@ std::vector<std::string> suspicions(const SurveyReport& report, const AccuracyGr
                         "start mark or a shifted datum.",
                         up.mean_m > 0.0 ? "too high" : "too low", signedMetres(up.mean_m)));
     }
+    std::size_t blunders = 0;
     for (const Residual& residual : report.residuals) {
         if (!countsIn(residual, group) || !residual.possible_blunder) continue;
+        if (++blunders > kMostNamed) continue;
         out.push_back(
             fmt::format("{} is off by {}, more than {:g} times the RMSE of the others: a possible blunder. "
                         "It is counted.",
                         residual.mark, signedMetres(residual.difference_enu_m.z()), kBlunderMultiple));
+    }
+    if (blunders > kMostNamed) {
+        out.push_back(fmt::format("{} more marks are off as far; the table of differences names them.",
+                                  blunders - kMostNamed));
     }
     return out;
 }

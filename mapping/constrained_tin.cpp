@@ -538,10 +538,14 @@ bool followsBreaklines(InterpolationMethod method) {
 }
 
 Result<InterpolatorPointer> fitInterpolator(InterpolationMethod method,
-                                            std::shared_ptr<const ConstrainedTin> tin) {
+                                            std::shared_ptr<const ConstrainedTin> tin, std::stop_token stop) {
     std::shared_ptr<const TriangleMesh> mesh(tin, &tin->mesh);
     if (method == InterpolationMethod::Linear) return makeLinear(std::move(mesh));
-    if (method == InterpolationMethod::CloughTocher) return makeCloughTocher(std::move(mesh), tin->breaks);
+    if (method == InterpolationMethod::CloughTocher) {
+        auto surface = makeCloughTocher(std::move(mesh), tin->breaks, stop);
+        if (stop.stop_requested()) return cancelled();
+        return surface;
+    }
     return usageError(fmt::format("method {} cannot follow breaklines", name(method)),
                       "use linear or clough-tocher");
 }

@@ -46,8 +46,8 @@ struct ConstrainedTin {
 [[nodiscard]] bool followsBreaklines(InterpolationMethod method);
 
 /// A surface over the triangles. Errors: Usage for a method other than Linear and CloughTocher, which alone
-/// keep to triangles.
+/// keep to triangles; Cancelled.
 [[nodiscard]] Result<std::unique_ptr<const HeightInterpolator>> fitInterpolator(
-    InterpolationMethod method, std::shared_ptr<const ConstrainedTin> tin);
+    InterpolationMethod method, std::shared_ptr<const ConstrainedTin> tin, std::stop_token stop = {});
 
 }  // namespace terrawalk

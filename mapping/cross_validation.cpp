@@ -22,6 +22,7 @@ namespace terrawalk {
 namespace {
 
 constexpr std::size_t kLeastPoints = 10;
+constexpr std::size_t kPlacesBetweenStops = 4096;
 /// Points left out one by one share a round when neither is among so many nearest of the other: no local
 /// method sees that far.
 constexpr std::size_t kApart = 40;
@@ -146,11 +147,16 @@ Result<Errors> errorsOf(InterpolationMethod method, const Split& split,
     SilentProgress silent;
     const auto surface =
         split.constrained && followsBreaklines(method)
-            ? fitInterpolator(method, split.constrained)
+            ? fitInterpolator(method, split.constrained, stop)
             : fitInterpolator(method, split.kept.points_m, split.kept.sigmas_m, interpolation, silent, stop);
     if (!surface) return tl::unexpected(surface.error());
     std::vector<HeightEstimate> estimates(split.places_m.size());
-    (*surface)->estimate(split.places_m, estimates);
+    for (std::size_t i = 0; i < estimates.size(); i += kPlacesBetweenStops) {
+        if (stop.stop_requested()) return cancelled();
+        const std::size_t count = std::min(kPlacesBetweenStops, estimates.size() - i);
+        (*surface)->estimate(std::span(split.places_m).subspan(i, count),
+                             std::span(estimates).subspan(i, count));
+    }
     Errors errors(estimates.size());
     for (std::size_t i = 0; i < errors.size(); ++i) {
         errors[i] = estimates[i].height_m - split.heights_m[i];

@@ -52,8 +52,8 @@ Result<InterpolatorPointer> overTriangles(InterpolationMethod method,
     const auto owner = std::make_shared<const DelaunayTin>(std::move(*tin));
     std::shared_ptr<const TriangleMesh> mesh(owner, &owner->mesh());
     if (method == InterpolationMethod::Linear) return makeLinear(std::move(mesh));
-    if (method == InterpolationMethod::CloughTocher) return makeCloughTocher(std::move(mesh));
-    return makeNaturalNeighbour(std::move(mesh), method == InterpolationMethod::SibsonC1);
+    if (method == InterpolationMethod::CloughTocher) return makeCloughTocher(std::move(mesh), {}, stop);
+    return makeNaturalNeighbour(std::move(mesh), method == InterpolationMethod::SibsonC1, stop);
 }
 
 Result<InterpolatorPointer> fit(InterpolationMethod method, const std::vector<Eigen::Vector3d>& points_m,

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -123,20 +124,47 @@ Lattice refined(const Lattice& coarse) {
     return fine;
 }
 
+/// The slope that all points have in common. Near their middle, so that map coordinates cost no digits.
+struct Plane {
+    Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();
+    Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+    [[nodiscard]] double at(const Eigen::Vector2d& place_m) const {
+        return middle_m.z() + slope.dot(place_m - middle_m.head<2>());
+    }
+};
+
+/// Least squares; level where the points lie on a line.
+Plane planeThrough(const std::vector<Eigen::Vector3d>& points_m) {
+    Plane plane;
+    for (const Eigen::Vector3d& point : points_m) plane.middle_m += point - points_m.front();
+    plane.middle_m = points_m.front() + plane.middle_m / static_cast<double>(points_m.size());
+    Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    for (const Eigen::Vector3d& point : points_m) {
+        const Eigen::Vector3d off_m = point - plane.middle_m;
+        normal += off_m.head<2>() * off_m.head<2>().transpose();
+        right += off_m.z() * off_m.head<2>();
+    }
+    const double determinant = normal.determinant(), trace = normal.trace();
+    if (determinant > 1e-9 * trace * trace) plane.slope = normal.inverse() * right;
+    return plane;
+}
+
 class MultilevelBSpline final : public HeightInterpolator {
   public:
-    MultilevelBSpline(Lattice lattice, double mean_m) : lattice_(std::move(lattice)), mean_m_(mean_m) {}
+    MultilevelBSpline(Lattice lattice, Plane plane)
+        : lattice_(std::move(lattice)), plane_(std::move(plane)) {}
 
     void estimate(std::span<const Eigen::Vector2d> places_m,
                   std::span<HeightEstimate> estimates) const override {
         for (std::size_t i = 0; i < places_m.size(); ++i) {
-            estimates[i].height_m = mean_m_ + valueAt(lattice_, places_m[i]);
+            estimates[i].height_m = plane_.at(places_m[i]) + valueAt(lattice_, places_m[i]);
         }
     }
 
   private:
     Lattice lattice_;
-    double mean_m_;
+    Plane plane_;
 };
 
 struct Plan {
@@ -180,12 +208,12 @@ Result<InterpolatorPointer> makeBSpline(const std::vector<Eigen::Vector3d>& poin
                                         Progress& progress, const std::stop_token& stop) {
     const auto plan = planFor(points_m, spacing);
     if (!plan) return tl::unexpected(plan.error());
-    // What no lattice holds: counted from the mean, which is where an empty place ends up.
-    double mean = 0.0;
-    for (const Eigen::Vector3d& point : points_m) mean += point.z() - points_m.front().z();
-    mean = points_m.front().z() + mean / static_cast<double>(points_m.size());
+    // What no lattice holds: counted from the plane, which is where an empty place ends up.
+    const Plane plane = planeThrough(points_m);
     std::vector<double> residuals_m(points_m.size());
-    for (std::size_t i = 0; i < points_m.size(); ++i) residuals_m[i] = points_m[i].z() - mean;
+    for (std::size_t i = 0; i < points_m.size(); ++i) {
+        residuals_m[i] = points_m[i].z() - plane.at(points_m[i].head<2>());
+    }
 
     Lattice level = plan->coarsest;
     Lattice sum;
@@ -206,7 +234,7 @@ Result<InterpolatorPointer> makeBSpline(const std::vector<Eigen::Vector3d>& poin
         }
         level = Lattice{level.origin_m, 0.5 * level.spacing_m, 2 * level.columns, 2 * level.rows, {}};
     }
-    return std::make_unique<MultilevelBSpline>(std::move(sum), mean);
+    return std::make_unique<MultilevelBSpline>(std::move(sum), plane);
 }
 
 }  // namespace terrawalk

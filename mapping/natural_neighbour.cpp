@@ -45,11 +45,11 @@ struct CavityEdge {
 
 class NaturalNeighbour final : public HeightInterpolator {
   public:
-    NaturalNeighbour(std::shared_ptr<const TriangleMesh> mesh, bool smooth)
+    NaturalNeighbour(std::shared_ptr<const TriangleMesh> mesh, bool smooth, const std::stop_token& stop)
         : mesh_(std::move(mesh)), walk_(*mesh_) {
         if (!smooth) return;
         // Without breaklines each vertex has one slope; by vertex it is found without the corner.
-        const VertexGradients found = vertexGradients(walk_);
+        const VertexGradients found = vertexGradients(walk_, {}, stop);
         gradients_.resize(mesh_->vertices_m.size());
         for (std::size_t t = 0; t < mesh_->triangles.size(); ++t) {
             for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -230,8 +230,9 @@ class NaturalNeighbour final : public HeightInterpolator {
 
 }  // namespace
 
-InterpolatorPointer makeNaturalNeighbour(std::shared_ptr<const TriangleMesh> mesh, bool smooth) {
-    return std::make_unique<NaturalNeighbour>(std::move(mesh), smooth);
+InterpolatorPointer makeNaturalNeighbour(std::shared_ptr<const TriangleMesh> mesh, bool smooth,
+                                         const std::stop_token& stop) {
+    return std::make_unique<NaturalNeighbour>(std::move(mesh), smooth, stop);
 }
 
 }  // namespace terrawalk

@@ -188,13 +188,16 @@ Result<SpaceAboveGround> SpaceOccupancy::aboveGround(const ElevationGrid& ground
         const double ground_m = ground.at(row, column);
         if (std::isnan(ground_m)) return double{kNoHeight};
         double free_m = 0.0;
+        bool seen = false;
         for (const Eigen::Vector2d& at : impl_->voxelColumns(g, row, column)) {
             impl_->climb(at, ground_m, options, [&](double above_m, Space space) {
+                seen = seen || space != Space::Unknown;
                 if (space == Space::Free) free_m = std::max(free_m, above_m + impl_->options.voxel_m);
                 return space == Space::Free;
             });
         }
         const double obstacle_m = obstacles->at(row, column);
+        if (!seen && std::isnan(obstacle_m)) return double{kNoHeight};  // no ray went here
         return std::isnan(obstacle_m) ? free_m : std::min(free_m, obstacle_m);
     });
     if (!free_height) return tl::unexpected(free_height.error());

@@ -31,8 +31,8 @@ enum class Space { Unknown, Free, Occupied };
 /// What is known of the space above ground. Heights above the ground [m].
 struct SpaceAboveGround {
     /// How far up space is known to be free without a break, from the ground layer on, in the best of the
-    /// cell's voxel columns but not above its lowest obstacle; 0 where nothing is known of the space right
-    /// above the ground layer.
+    /// cell's voxel columns but not above its lowest obstacle; 0 under an obstacle that hides the space
+    /// right above the ground layer, NaN where nothing is known of that space.
     ElevationGrid free_height;
     /// Bottom of the lowest occupied voxel in any of the cell's voxel columns that stands above the ground
     /// layer of the cell and of its eight neighbours, so that no riser counts as obstacle over its own foot;

@@ -55,10 +55,11 @@ class Linear final : public OverTriangles {
 
 class CloughTocher final : public OverTriangles {
   public:
-    CloughTocher(std::shared_ptr<const TriangleMesh> mesh, std::vector<std::uint8_t> breaks)
+    CloughTocher(std::shared_ptr<const TriangleMesh> mesh, std::vector<std::uint8_t> breaks,
+                 const std::stop_token& stop)
         : OverTriangles(std::move(mesh)),
           breaks_(std::move(breaks)),
-          slopes_(vertexGradients(walk(), breaks_)) {}
+          slopes_(vertexGradients(walk(), breaks_, stop)) {}
 
   private:
     [[nodiscard]] bool bordersBreak(std::uint32_t triangle, std::size_t side) const {
@@ -147,8 +148,8 @@ InterpolatorPointer makeLinear(std::shared_ptr<const TriangleMesh> mesh) {
 }
 
 InterpolatorPointer makeCloughTocher(std::shared_ptr<const TriangleMesh> mesh,
-                                     std::vector<std::uint8_t> breaks) {
-    return std::make_unique<CloughTocher>(std::move(mesh), std::move(breaks));
+                                     std::vector<std::uint8_t> breaks, const std::stop_token& stop) {
+    return std::make_unique<CloughTocher>(std::move(mesh), std::move(breaks), stop);
 }
 
 }  // namespace terrawalk

@@ -157,7 +157,8 @@ std::vector<SectorStart> sectorsOf(const SectorWalk& sectors, const TriangleWalk
 
 }  // namespace
 
-VertexGradients vertexGradients(const TriangleWalk& walk, const std::vector<std::uint8_t>& breaks) {
+VertexGradients vertexGradients(const TriangleWalk& walk, const std::vector<std::uint8_t>& breaks,
+                                const std::stop_token& stop) {
     VertexGradients result;
     result.of_corner.assign(walk.mesh().triangles.size(), {kNoTriangle, kNoTriangle, kNoTriangle});
     const SectorWalk sectors(walk, breaks);
@@ -166,6 +167,7 @@ VertexGradients vertexGradients(const TriangleWalk& walk, const std::vector<std:
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, found.size(), kVerticesPerTask),
         [&](const tbb::blocked_range<std::size_t>& range) {
+            if (stop.stop_requested()) return;
             for (std::size_t i = range.begin(); i < range.end(); ++i) {
                 const Sector sector = sectors.sectorFrom(found[i].triangle, found[i].vertex);
                 result.gradients[i] = gradientOf(walk.mesh(), sector.vertex, sectors.neighbours(sector));

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 #include "mapping/triangle_walk.hpp"
@@ -23,7 +24,9 @@ struct VertexGradients {
 /// with any number.
 /// @param breaks  for each triangle a bit for each side (that faces corner 0, 1, 2) that is a breakline;
 ///                empty: none
+/// @param stop    when it was requested, the gradients are not all there: who asks looks at it next
 [[nodiscard]] VertexGradients vertexGradients(const TriangleWalk& walk,
-                                              const std::vector<std::uint8_t>& breaks = {});
+                                              const std::vector<std::uint8_t>& breaks = {},
+                                              const std::stop_token& stop = {});
 
 }  // namespace terrawalk

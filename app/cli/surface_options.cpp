@@ -49,8 +49,9 @@ void addSurfaceOptions(CLI::App& command, SurfaceRequest& r) {
     command.add_option(
         "--thin", r.thinning_cell_m,
         "Side of a cell, m, in which the point of median height stands for all [0, all points]");
-    command.add_option("--resolution", r.resolution,
-                       "Side of a cell, in the points' unit [from their spacing]");
+    command
+        .add_option("--resolution", r.resolution, "Side of a cell, in the points' unit [from their spacing]")
+        ->check(CLI::PositiveNumber);
     command
         .add_option_function<std::vector<double>>(
             "--extent",

@@ -468,16 +468,17 @@ void MainWindow::buildViewMenu() {
 }
 
 void MainWindow::buildFiguresMenu(QMenu& menu) {
+    menu.menuAction()->setStatusTip(
+        tr("How lengths and numbers are written in the window; files and reports stay in metres"));
     const FigureStyle now = figureStyle();
     const auto add = [&](QActionGroup* group, const char* name, const QString& words, FigureStyle style) {
         QAction* action = group->addAction(menu.addAction(words));
         action->setObjectName(name);
         action->setCheckable(true);
         action->setChecked(style == now);
+        action->setStatusTip(menu.menuAction()->statusTip());
         connect(action, &QAction::triggered, this, [this, style] { Q_EMIT figureStyleAsked(style); });
     };
-    menu.menuAction()->setStatusTip(
-        tr("How lengths and numbers are written in the window; files and reports stay in metres"));
     auto* units = new QActionGroup(this);
     add(units, "unit_m", tr("Metres"), {LengthUnit::Metre, now.numbers});
     add(units, "unit_ft", tr("Feet (0.3048 m)"), {LengthUnit::Foot, now.numbers});

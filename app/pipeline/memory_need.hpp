@@ -14,6 +14,7 @@ struct MemoryNeed {
     std::size_t points = 0;
     std::size_t cells = 0;
     bool variances = false;
+    bool linear = false;  ///< straight from the triangles
     [[nodiscard]] double bytes() const;
 };
 

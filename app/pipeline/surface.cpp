@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -69,6 +70,12 @@ Result<void> checkRequest(const SurfaceRequest& request) {
     if (auto fits = checkMethod(request.model, !request.breaklines.empty()); !fits) return fits;
     if (!(request.thinning_cell_m >= 0.0) || !std::isfinite(request.thinning_cell_m)) {
         return usageError("the cells to thin by may not be below zero");
+    }
+    if (const std::string ending = request.output.extension().string();
+        ending != ".tif" && ending != ".tiff") {
+        return usageError(fmt::format("the DEM is a GeoTIFF, and {} is no name for one",
+                                      request.output.filename().string()),
+                          "end the name in .tif; gdal_translate makes other formats of it");
     }
     if (!(request.resolution >= 0.0) || !std::isfinite(request.resolution)) {
         return usageError("the resolution may not be below zero");
@@ -156,6 +163,14 @@ Result<GridGeometry> geometryOf(const SurfaceRequest& request, const GroundTrian
     return gridCovering(GridExtent{west, south, east, north}, cell);
 }
 
+/// "west,south,east,north" as --extent takes it.
+std::string extentText(const TriangleMesh& mesh) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& vertex : mesh.vertices_m) box.extend(vertex);
+    return fmt::format("{:.2f},{:.2f},{:.2f},{:.2f}", box.min().x(), box.min().y(), box.max().x(),
+                       box.max().y());
+}
+
 /// Points and surface end with this function: writing needs their memory.
 Result<InterpolatedGrid> gridOf(SurfaceInput input, GroundTriangles ground, const GridGeometry& geometry,
                                 InterpolationMethod method, const SurfaceModelOptions& options,
@@ -201,7 +216,8 @@ Result<void> writeFiles(InterpolatedGrid grid, const std::vector<TerraceEdge>& e
                                .title = fmt::format("{}, elevation", request.points.stem().string()),
                                .software = programVersion(),
                                .metadata = {{"METHOD", std::string(name(report.method))},
-                                            {"POINTS", std::to_string(report.points_used)}},
+                                            {"POINTS", std::to_string(report.points_used)},
+                                            {kPointsSha256, report.points_sha256}},
                                .unit = report.crs.unit.symbol};
     report.files = {request.output};
     std::optional<ElevationGrid> errors;
@@ -347,7 +363,8 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
 
     // Before the long work: whether kriging, with its variances, will be chosen is not known yet.
     const bool variances = !model.method || *model.method == InterpolationMethod::Kriging;
-    const MemoryNeed need{input.points_m.size(), geometry->size(), variances};
+    const bool linear = model.method == InterpolationMethod::Linear && !model.cross_validate;
+    const MemoryNeed need{input.points_m.size(), geometry->size(), variances, linear};
     report.memory_need_bytes = need.bytes();
     progress.message(
         Severity::Info,
@@ -377,11 +394,16 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
         report.notes.emplace_back("the cross-validation is of the points without the breaklines");
     }
     const std::vector<TerraceEdge> edges = std::move(ground->terrace_edges);
+    const std::string covered = extentText(ground->mesh);
     PartialProgress fitting(progress, 0.7, 0.9);
     auto grid = gridOf(std::move(input), std::move(*ground), *geometry, report.method, model, report.notes,
                        fitting, stop);
     if (!grid) return tl::unexpected(grid.error());
     summarize(grid->heights, report);
+    if (report.cells_with_height == 0 && request.extent) {
+        return badData("no cell of the extent lies on the surface", request.points, 0,
+                       fmt::format("give an extent that overlaps {}", covered));
+    }
     progress.report(0.9, "writing");
     if (auto done = writeFiles(std::move(*grid), edges, report, stop); !done)
         return tl::unexpected(done.error());

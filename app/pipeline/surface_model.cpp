@@ -121,7 +121,8 @@ Result<MethodChoice> chooseMethod(const SurfaceInput& input, const GroundTriangl
     }
     auto validation =
         crossValidate(input.points_m, input.sigmas_m, options.interpolation, judged, progress, stop);
-    if (!validation && options.method && validation.error().kind == ErrorKind::BadData) {
+    // Nothing to choose by: what was named, or the plain surface.
+    if (!validation && validation.error().kind == ErrorKind::BadData) {
         choice.note = "no cross-validation: " + validation.error().message;
         return choice;
     }
@@ -167,7 +168,7 @@ Result<SurfaceModel> SurfaceModel::fit(const SurfaceInput& input, GroundTriangle
     if (method == InterpolationMethod::Linear) return SurfaceModel(std::move(ground), method, nullptr);
     InterpolationOptions interpolation = options.interpolation;
     interpolation.learn_variance = true;
-    auto heights = ground.constrained ? fitInterpolator(method, ground.constrained)
+    auto heights = ground.constrained ? fitInterpolator(method, ground.constrained, stop)
                                       : fitInterpolator(method, input.points_m, input.sigmas_m, interpolation,
                                                         progress, stop);
     if (!heights) return tl::unexpected(heights.error());

@@ -49,6 +49,14 @@ Comparison compareWith(const std::vector<MapMark>& marks, const DemFile& dem,
     return c;
 }
 
+/// Whether the DEM was made from the file that the marks come from.
+Result<bool> isMadeOf(const DemFile& dem, const MarkSource& marks) {
+    if (dem.points_sha256.empty()) return false;
+    const auto hash = sha256OfFile(marks.check_points.empty() ? marks.marks : marks.check_points);
+    if (!hash) return tl::unexpected(hash.error());
+    return *hash == dem.points_sha256;
+}
+
 nlohmann::ordered_json statisticsJson(const ErrorStatistics& s) {
     nlohmann::ordered_json json{{"n", s.n},           {"marks", s.marks},        {"mean_m", s.mean_m},
                                 {"rmse_m", s.rmse_m}, {"mae_m", s.mae_m},        {"median_m", s.median_m},
@@ -75,6 +83,11 @@ Result<ValidateOutcome> validateDem(const ValidateRequest& request, Progress& pr
         sigmas = std::move(*read);
     }
     Comparison compared = compareWith(*marks, *dem, sigmas);
+    const auto made_of_these = isMadeOf(*dem, request.marks);
+    if (!made_of_these) return tl::unexpected(made_of_these.error());
+    if (*made_of_these) {
+        for (Residual& residual : compared.found.residuals) residual.used_by_estimator = true;
+    }
     if (compared.found.residuals.empty()) {
         return badData("no mark meets a height of the DEM", request.dem, 0,
                        "see whether marks and DEM are in one CRS");
@@ -92,6 +105,13 @@ Result<ValidateOutcome> validateDem(const ValidateRequest& request, Progress& pr
                     [](const Residual& r) { return r.role == MarkRole::Control; })) {
         outcome.report.limitations.emplace_back(
             "A DEM may have been tied to the control marks; the check marks alone speak for it.");
+    }
+    if (*made_of_these) {
+        outcome.report.limitations.insert(
+            outcome.report.limitations.begin(),
+            "The DEM was made from this very file: the differences say how it follows its own points, not "
+            "how "
+            "accurate it is.");
     }
     if (stop.stop_requested()) return cancelled();
     if (!request.output.empty()) {

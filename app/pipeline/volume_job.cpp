@@ -34,6 +34,7 @@ Result<VolumeOutcome> measureVolume(const VolumeRequest& request, Progress& prog
     const auto dem = readDem(request.dem, stop);
     if (!dem) return tl::unexpected(dem.error());
     ElevationGrid difference = dem->grid;
+    std::size_t cells_in_one = 0;
     if (request.plane) {
         for (float& height : difference.heights_m) {
             height = static_cast<float>(static_cast<double>(height) - *request.plane);
@@ -42,6 +43,7 @@ Result<VolumeOutcome> measureVolume(const VolumeRequest& request, Progress& prog
         const auto other = readAlike(request.against, *dem, stop);
         if (!other) return tl::unexpected(other.error());
         for (std::size_t cell = 0; cell < difference.heights_m.size(); ++cell) {
+            cells_in_one += std::isnan(difference.heights_m[cell]) != std::isnan(other->heights_m[cell]);
             difference.heights_m[cell] -= other->heights_m[cell];
         }
     }
@@ -56,8 +58,10 @@ Result<VolumeOutcome> measureVolume(const VolumeRequest& request, Progress& prog
     progress.report(0.6, "summing");
     const auto volume = volumeOf(difference, errors, stop);
     if (!volume) return tl::unexpected(volume.error());
-    VolumeOutcome outcome{request, dem->crs.unit.symbol, *volume};
-    if (outcome.volume.cells == 0) return badData("no cell has a height in both", request.dem);
+    VolumeOutcome outcome{request, dem->crs.unit.symbol, *volume, cells_in_one};
+    if (outcome.volume.cells == 0) {
+        return badData(request.plane ? "no cell has a height" : "no cell has a height in both", request.dem);
+    }
     if (stop.stop_requested()) return cancelled();
     progress.report(1.0, "done");
     return outcome;
@@ -70,9 +74,13 @@ std::string toText(const VolumeOutcome& outcome) {
         return fmt::format("{:<8}{:.3f} {}3, standard error {:.3f}, over {:.2f} {}2\n", what, p.volume_m3, u,
                            p.sigma_m3, p.area_m2, u);
     };
-    std::string text = part("Above", v.above) + part("Below", v.below) +
+    std::string text = part("Cut", v.above) + part("Fill", v.below) +
                        fmt::format("{:<8}{:.3f} {}3, standard error {:.3f}, over {:.2f} {}2\n", "Net",
                                    v.net_m3, u, v.net_sigma_m3, v.area_m2, u);
+    if (outcome.cells_in_one > 0) {
+        text +=
+            fmt::format("Note: {} cells with a height in one DEM only are left out\n", outcome.cells_in_one);
+    }
     if (v.net_sigma_m3 == 0.0) {
         text +=
             "Note: no uncertainty was given; --uncertainty or --sigma makes the standard errors mean "
@@ -98,7 +106,8 @@ std::string toJson(const VolumeOutcome& outcome) {
                                     {"below", part(v.below)},
                                     {"net", {{"volume", v.net_m3}, {"standard_error", v.net_sigma_m3}}},
                                     {"area", v.area_m2},
-                                    {"cells", v.cells}};
+                                    {"cells", v.cells},
+                                    {"cells_in_one", outcome.cells_in_one}};
     if (r.plane) document["plane"] = *r.plane;
     if (!r.against.empty()) document["against"] = r.against.string();
     return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -27,6 +27,7 @@ struct VolumeOutcome {
     VolumeRequest request;
     std::string unit;
     VolumeResult volume;
+    std::size_t cells_in_one = 0;  ///< with a height in one DEM and none in the other: left out
 };
 
 /// Errors: BadData for rasters that cannot be read, that have other cells or another CRS than the DEM, that

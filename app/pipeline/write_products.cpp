@@ -71,14 +71,25 @@ std::string manifestText(const Survey& survey, const Products& products, const S
     return manifest.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
+/// What the check marks say of the DEM, for who has the file alone.
+void addAccuracy(const SurveyReport& report, DemDescription& description) {
+    if (!report.headline || *report.headline >= report.accuracy.size()) return;
+    const AccuracyGroup& group = report.accuracy[*report.headline];
+    if (group.stage != Stage::Surface || group.role != MarkRole::Check || !group.up) return;
+    description.metadata.emplace_back("RMSE_V", fmt::format("{:.4f}", group.up->rmse_m));
+    description.metadata.emplace_back("CHECK_POINTS", std::to_string(group.up->n));
+}
+
 DemDescription describeDem(const Products& products, const Survey& survey) {
-    return {.crs_wkt2 = products.crs_wkt2,
-            .vertical_datum = survey.vertical_datum,
-            .title = survey.name,
-            .software = programVersion(),
-            .metadata = {{"METHOD", products.report.surface.method},
-                         {"FUSION", products.report.method},
-                         {"HEIGHTS", products.report.surface.vertical_datum}}};
+    DemDescription description{.crs_wkt2 = products.crs_wkt2,
+                               .vertical_datum = survey.vertical_datum,
+                               .title = survey.name,
+                               .software = programVersion(),
+                               .metadata = {{"METHOD", products.report.surface.method},
+                                            {"FUSION", products.report.method},
+                                            {"HEIGHTS", products.report.surface.vertical_datum}}};
+    addAccuracy(products.report, description);
+    return description;
 }
 
 using Writer = std::function<Result<void>(const fs::path&)>;

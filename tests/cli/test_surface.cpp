@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 
 double rmseOf(const json& report, const std::string& hold_out, const std::string& method) {
     for (const json& result : report.at("cross_validation").at("results")) {
@@ -81,9 +83,40 @@ TEST(SurfaceCommand, SaysWhatIsWrong) {
     EXPECT_EQ(run("x,y,z\n0,0,1\n1,0,1\n0,1,1\n", {"--method", "spline"}).exit_code, 2);
     EXPECT_EQ(run("x,y,z\n0,0,1\n1,0,1\n0,1,1\n", {"--extent", "3,0,1,1"}).exit_code, 2);
     const auto few = run("x,y,z\n0,0,1\n1,0,1\n0,1,1\n");
-    EXPECT_EQ(few.exit_code, 3);
-    EXPECT_THAT(few.err, HasSubstr("choose a method by name"));
+    EXPECT_EQ(few.exit_code, 0) << "nothing to choose by: the plain surface";
+    EXPECT_THAT(few.out, HasSubstr("too few for cross-validation"));
+    EXPECT_EQ(run("x,y,z\n0,0,1\n1,0,1\n0,1,1\n", {"--resolution", "0"}).exit_code, 2);
+    const auto away = run("x,y,z\n0,0,1\n1,0,1\n0,1,1\n", {"--extent", "50,50,60,60"});
+    EXPECT_EQ(away.exit_code, 3);
+    EXPECT_THAT(away.err, HasSubstr("the extent"));
+    const auto degrees = run("lon,lat,z\n110.5,23.1,1\n");
+    EXPECT_EQ(degrees.exit_code, 3);
+    EXPECT_THAT(degrees.err, HasSubstr("project"));
     EXPECT_EQ(run("x,y,z\n0,0,1\n1,0,1\n0,1,1\n", {"--method", "linear", "--no-validation"}).exit_code, 0);
+    const auto picture =
+        terrawalk({"surface", (scratch / "p.csv").string(), "-o", (scratch / "dem.png").string()});
+    EXPECT_EQ(picture.exit_code, 2);
+    EXPECT_THAT(picture.err, HasSubstr(".tif"));
+}
+
+TEST(SurfaceCommand, PointsCannotCertifyTheirOwnDem) {
+    const TemporaryFolder scratch;
+    std::string text = "x,y,z\n", other = "x,y,z\n";
+    for (int i = 0; i < 60; ++i) {
+        text += fmt::format("{},{},{}\n", i % 8, i / 8, 0.1 * (i % 5));
+        other += fmt::format("{},{},{}\n", 0.5 + i % 7, 0.5 + i / 9, 0.2);
+    }
+    writeBytes(scratch / "own.csv", text);
+    writeBytes(scratch / "other.csv", other);
+    const std::string dem = (scratch / "dem.tif").string();
+    ASSERT_EQ(terrawalk({"surface", (scratch / "own.csv").string(), "-o", dem}).exit_code, 0);
+    const auto own = terrawalk({"validate", dem, "--check-points", (scratch / "own.csv").string()});
+    EXPECT_EQ(own.exit_code, 0);
+    EXPECT_THAT(own.out, HasSubstr("made from this very file"));
+    EXPECT_THAT(own.out, Not(HasSubstr("Tested")));
+    const auto apart = terrawalk({"validate", dem, "--check-points", (scratch / "other.csv").string()});
+    EXPECT_EQ(apart.exit_code, 0);
+    EXPECT_THAT(apart.out, HasSubstr("Tested"));
 }
 
 }  // namespace

@@ -75,10 +75,26 @@ TEST(PointTable, TakesALineOfAnyFormForTheSamePoint) {
     }
 }
 
+// As `process` writes ground_points.csv: what is no ground has 0 there, and perhaps no place.
+TEST(PointTable, LeavesOutWhatIsMarkedAsNotUsed) {
+    const auto points = readText(
+        "run,e_m,n_m,u_m,used,reason\nS01,1,2,3,1,\nS01,,,,0,no range\nS01,4,5,-60,0,range too long\n"
+        "S01,7,8,9,1,\n");
+    ASSERT_TRUE(points) << points.error().text();
+    ASSERT_EQ(points->points.size(), 2U);
+    EXPECT_EQ(points->points[1], Eigen::Vector3d(7, 8, 9));
+    EXPECT_EQ(points->in_file, 4U);
+    ASSERT_EQ(points->notes.size(), 1U);
+    EXPECT_THAT(points->notes[0], HasSubstr("2 of 4 points are marked as not used"));
+    // A place that is missing is still an error where the point counts.
+    EXPECT_FALSE(readText("e_m,n_m,u_m,used\n1,2,,1\n"));
+}
+
 TEST(PointTable, NamesTheLineOfWhatIsWrong) {
     EXPECT_THAT(readText("x,y,z\n1,2,3\n1,2\n").error().text(), HasSubstr("points.csv:3"));
-    EXPECT_THAT(readText("x,y,z\n1,2,three\n").error().text(), HasSubstr(":2: \"three\" is no number"));
-    EXPECT_THAT(readText("lat,lon,z\n1,2,3\n").error().text(), HasSubstr("no x, y and z"));
+    EXPECT_THAT(readText("x,y,z\n1,2,three\n").error().text(), HasSubstr(":2: \"three\" in column 3 is no number"));
+    EXPECT_THAT(readText("a,b,z\n1,2,3\n").error().text(), HasSubstr("no x, y and z"));
+    EXPECT_THAT(readText("lat,lon,z\n1,2,3\n").error().text(), HasSubstr("degrees; project them"));
     EXPECT_THAT(readText("x_m,y_ft,z_m\n1,2,3\n").error().text(), HasSubstr("different units"));
     EXPECT_THAT(readText("x,e,y,z\n1,2,3,4\n").error().text(), HasSubstr("both"));
     EXPECT_THAT(readText("x,y,z\n").error().text(), HasSubstr("no point"));

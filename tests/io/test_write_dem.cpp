@@ -87,6 +87,31 @@ std::vector<std::string> namesIn(const std::filesystem::path& folder) {
     return names;
 }
 
+TEST(WriteDem, ClassesAreBytesWithNothingAtZero) {
+    const TemporaryFolder folder;
+    ElevationGrid grid = ramp(700, 600);
+    for (std::size_t i = 0; i < grid.heights_m.size(); ++i) {
+        grid.heights_m[i] = i % 7 == 0 ? kNoHeight : static_cast<float>(1 + i % 3);
+    }
+    DemDescription what = description();
+    what.classes = true;
+    write(grid, folder / "source.tif", what);
+    const Dataset dataset = open(folder / "source.tif");
+    ASSERT_TRUE(dataset);
+    GDALRasterBand& band = *dataset->GetRasterBand(1);
+    EXPECT_EQ(band.GetRasterDataType(), GDT_Byte);
+    EXPECT_EQ(band.GetNoDataValue(), 0.0);
+    EXPECT_GT(band.GetOverviewCount(), 0);
+    const auto cells = cellsIn(*dataset);
+    ASSERT_EQ(cells.size(), grid.heights_m.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        ASSERT_EQ(cells[i], i % 7 == 0 ? 0.0F : grid.heights_m[i]) << i;
+    }
+    // What is no class is refused, not rounded.
+    grid.heights_m[1] = 1.5F;
+    EXPECT_FALSE(writeDem(grid, what, folder / "source.tif"));
+}
+
 TEST(WriteDem, RampComesBackCellByCellInItsPlace) {
     const TemporaryFolder folder;
     const ElevationGrid grid = ramp(700, 600);

@@ -76,6 +76,21 @@ TEST_P(EachMethod, KeepsLevelGroundLevel) {
     }
 }
 
+TEST_P(EachMethod, KeepsAPlane) {
+    const Method method = GetParam();
+    // These three take means of neighbours.
+    if (method == Method::Nearest || method == Method::InverseDistance || method == Method::Kriging)
+        GTEST_SKIP() << "no plane";
+    const auto plane = [](double x, double y) {
+        return 0.3 * (x - kUtmOrigin_m.x()) - 0.2 * (y - kUtmOrigin_m.y());
+    };
+    const auto surface = fit(method, withHeights(squareOfPoints(300, 1), plane));
+    ASSERT_TRUE(surface) << surface.error().text();
+    for (const Eigen::Vector2d& place : placesIn(20.0, 80.0, 200, 2)) {
+        EXPECT_NEAR(heightAt(**surface, place.x(), place.y()), plane(place.x(), place.y()), 1e-6);
+    }
+}
+
 TEST_P(EachMethod, GivesTheSameBytesForAnyOrderOfThePointsAndAnyNumberOfThreads) {
     Points points = squareOfPoints(3000, 3);
     const GridGeometry geometry{kUtmOrigin_m.x(), kUtmOrigin_m.y() + 100.0, 0.7, 142, 142};
