@@ -102,7 +102,7 @@ AccuracyPanel::AccuracyPanel(Selection& selection, QWidget* parent) : QWidget(pa
     content_ = new QScrollArea;
     auto* page = new QWidget;
     auto* column = new QVBoxLayout(page);
-    column->setContentsMargins(3 * kGrid_px, 3 * kGrid_px, 3 * kGrid_px, 3 * kGrid_px);
+    column->setContentsMargins(2 * kGrid_px, 3 * kGrid_px, 2 * kGrid_px, 3 * kGrid_px);
     column->setSpacing(2 * kGrid_px);
     figures_ = new QHBoxLayout;
     figures_->setSpacing(kGrid_px);

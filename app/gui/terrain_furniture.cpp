@@ -109,8 +109,8 @@ void drawHeights(QPainter& painter, const TerrainFrame& frame, const QPalette& p
 
 bool hidden(const TerrainFrame& frame, const Eigen::Vector3d& scene_m) {
     const Eigen::Vector3d eye = frame.camera.eye_m(), way = scene_m - eye;
-    const auto hit = frame.scene->firstHit({eye, way.normalized()}, frame.exaggeration);
     const double slack_m = std::max(0.01 * frame.camera.radius_m, 0.5);
+    const auto hit = frame.scene->firstHit({eye, way.normalized()}, frame.exaggeration, slack_m / 4.0);
     return hit && (*hit - eye).norm() < way.norm() - slack_m;
 }
 

@@ -309,7 +309,8 @@ std::optional<double> TerrainScene::heightAt(double x_map_m, double y_map_m) con
     return weights > 1e-12 ? sum / weights : static_cast<double>(dem.heights_m[*nearest]);
 }
 
-std::optional<Eigen::Vector3d> TerrainScene::firstHit(const SightLine& sight, double exaggeration) const {
+std::optional<Eigen::Vector3d> TerrainScene::firstHit(const SightLine& sight, double exaggeration,
+                                                      double step_m) const {
     // The part of the line within the box of all that is known.
     double begin = 0.0, end = HUGE_VAL;
     const double cell_m = products_->dem.geometry.cell_m;
@@ -335,7 +336,7 @@ std::optional<Eigen::Vector3d> TerrainScene::firstHit(const SightLine& sight, do
         const auto height = heightAt(p.x() + origin_map_m_.x(), p.y() + origin_map_m_.y());
         return height && p.z() <= (*height - origin_map_m_.z()) * exaggeration;
     };
-    const double step = 0.5 * cell_m / std::max(sight.direction.head<2>().norm(), 0.05);
+    const double step = std::max(0.5 * cell_m, step_m) / std::max(sight.direction.head<2>().norm(), 0.05);
     double last = begin;
     for (double t = begin; t <= end; t += step) {
         if (below(t)) {

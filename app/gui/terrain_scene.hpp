@@ -61,7 +61,9 @@ class TerrainScene {
     /// Map height of the surface, between the centres of cells; nothing where a corner is not known.
     [[nodiscard]] std::optional<double> heightAt(double x_map_m, double y_map_m) const;
     /// Where a line of sight first meets the surface, in the frame of the scene.
-    [[nodiscard]] std::optional<Eigen::Vector3d> firstHit(const SightLine& sight, double exaggeration) const;
+    /// @param step_m  of the search along the line, no less than half a cell: what is narrower may be missed
+    [[nodiscard]] std::optional<Eigen::Vector3d> firstHit(const SightLine& sight, double exaggeration,
+                                                          double step_m = 0.0) const;
 
     [[nodiscard]] std::size_t blockCount() const { return blocks_.size(); }
     [[nodiscard]] TerrainBlock build(BlockLevel which) const;

@@ -81,6 +81,12 @@ class FurnitureWidget final : public QWidget {
     std::function<void(QPainter&)> paint_;
 };
 
+/// Whether two scenes put the same lines and dots on the surface.
+bool sameOverlay(const MapScene& a, const MapScene& b) {
+    return a.survey == b.survey && a.products == b.products && a.shown == b.shown &&
+           a.highlighted == b.highlighted && a.stretches == b.stretches;
+}
+
 }  // namespace
 
 TerrainView::TerrainView(ViewState& state, Selection& selection, TerrainRenderer renderer, QWidget* parent)
@@ -207,12 +213,16 @@ void TerrainView::build() {
     const std::shared_ptr<const std::vector<Eigen::Vector3d>> points(map_.survey,
                                                                      &map_.survey->ground_points_m);
     watcher_.setFuture(QtConcurrent::run(backgroundPool(), [products = map_.products, shown = map_.shown,
-                                                            points] {
+                                                            points, map = map_, palette = palette()] {
         Built built;
         built.picture =
             std::make_shared<const RasterPicture>(rasterPicture(*products, shown.layer, shown.change.get()));
         built.scene = std::make_shared<const TerrainScene>(products, *built.picture);
         built.points_map_m = points;
+        built.overlay =
+            std::make_shared<const SceneOverlay>(sceneOverlay(*built.scene, map, *points, palette));
+        built.overlay_of = map;
+        built.palette = palette;
         return built;
     }));
     update();
@@ -242,7 +252,13 @@ void TerrainView::take(Built built) {
     chooseContours();
     ensureCanvas();
     if (!same_place || fitted_) fit();
-    renewOverlay();
+    // Thousands of places laid on the surface take longer than the window may be deaf.
+    if (sameOverlay(built.overlay_of, map_) && built.palette == palette()) {
+        frame_.overlay = std::move(built.overlay);
+        renew(frame_.moving);
+    } else {
+        renewOverlay();
+    }
     Q_EMIT surfaceShown();
 }
 

@@ -89,6 +89,9 @@ class TerrainView : public QWidget {
         std::shared_ptr<const RasterPicture> picture;
         std::shared_ptr<const TerrainScene> scene;
         std::shared_ptr<const std::vector<Eigen::Vector3d>> points_map_m;
+        std::shared_ptr<const SceneOverlay> overlay;
+        MapScene overlay_of;  ///< what the overlay shows
+        QPalette palette;
     };
     void makeToolBar();
     void build();

@@ -21,6 +21,8 @@
 #include "app/gui/desktop.hpp"
 #include "app/gui/language.hpp"
 #include "app/gui/new_survey_dialog.hpp"
+#include "app/gui/plot_data.hpp"
+#include "app/gui/plots_view.hpp"
 #include "app/gui/report_view.hpp"
 #include "app/gui/settings_dialog.hpp"
 #include "app/gui/terrain_view.hpp"
@@ -130,6 +132,14 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
         views->setCurrentIndex(tab);
         QTest::qWait(tab == 1 || tab == 4 ? 2500 : 300);
         camera.shoot(QString("view%1").arg(tab));
+    }
+    if (size.width() == 1280) {
+        views->setCurrentIndex(2);
+        auto* plots = window.findChild<PlotsView*>();
+        for (std::size_t i = 0; i < allPlots().size(); ++i) {
+            plots->setPlot(allPlots()[i]);
+            camera.shoot(QString("plot%1").arg(i, 2, 10, QChar('0')));
+        }
     }
     views->setCurrentIndex(0);
     window.newSurvey({survey + "/logs", survey + "/control.csv"});

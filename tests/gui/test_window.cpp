@@ -59,6 +59,12 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kLong_ms = 300000;
+/// What sanitizers cost.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int kSlack = 10;
+#else
+constexpr int kSlack = 1;
+#endif
 
 QString text(const fs::path& path) {
     return QString::fromStdString(path.string());
@@ -652,8 +658,8 @@ void WindowTest::cancelStopsSoonAndKeepsWhatWasThere() {
     timer.start();
     window_->findChild<QPushButton*>("cancel")->click();
     QTRY_VERIFY_WITH_TIMEOUT(idle(), kLong_ms);
-    // A second on a quiet machine; tests share theirs.
-    QVERIFY2(timer.elapsed() < 15000, qPrintable(QString::number(timer.elapsed())));
+    // The aim is a second; tests share their machine.
+    QVERIFY2(timer.elapsed() < 3000 * kSlack, qPrintable(QString::number(timer.elapsed())));
     QVERIFY(!session().products());
     QVERIFY(session().survey() != nullptr);
     QVERIFY(messages().contains("Cancelled"));
@@ -1576,7 +1582,7 @@ void WindowTest::orchardNeverSilencesTheWindow() {
         const QByteArray name = QString("tab %1").arg(tab).toUtf8();
         turns_ms.push_back(measured(name.constData(), [&] { return shown.elapsed() > 500; }));
     }
-    for (const double ms : turns_ms) QVERIFY2(ms < 200.0, qPrintable(QString::number(ms)));
+    for (const double ms : turns_ms) QVERIFY2(ms < 100.0 * kSlack, qPrintable(QString::number(ms)));
 }
 
 }  // namespace terrawalk::gui
