@@ -55,7 +55,12 @@ Eigen::Matrix4d OrbitCamera::viewProjection() const {
 }
 
 std::optional<Eigen::Vector3d> OrbitCamera::project(const Eigen::Vector3d& scene_m) const {
-    const Eigen::Vector4d clip = viewProjection() * scene_m.homogeneous();
+    return project(viewProjection(), scene_m);
+}
+
+std::optional<Eigen::Vector3d> OrbitCamera::project(const Eigen::Matrix4d& view_projection,
+                                                    const Eigen::Vector3d& scene_m) const {
+    const Eigen::Vector4d clip = view_projection * scene_m.homogeneous();
     if (clip.w() <= 0.0) return std::nullopt;
     const Eigen::Vector3d ndc = clip.head<3>() / clip.w();
     return Eigen::Vector3d((ndc.x() + 1.0) / 2.0 * viewport_px.x(), (1.0 - ndc.y()) / 2.0 * viewport_px.y(),
@@ -126,24 +131,26 @@ void OrbitCamera::fit(std::span<const Eigen::Vector3d> points_m, const ViewMargi
     const Eigen::Vector2d half_view = kHalfView * room_px / viewport_px.y();
     target_m = Eigen::Vector3d::Zero();
     // What is near looks larger, so the middle of what is seen moves as the distance does: rounds settle it.
+    const Eigen::Vector3d across = right(), upwards = up(), ahead = forward();
     for (int round = 0; round < 8; ++round) {
+        const Eigen::Matrix4d lens = viewProjection();
         Eigen::Vector2d least = Eigen::Vector2d::Constant(HUGE_VAL), greatest = -least;
         for (const Eigen::Vector3d& p : points_m) {
-            const auto seen = project(p);
+            const auto seen = project(lens, p);
             if (!seen) continue;
             least = least.cwiseMin(seen->head<2>());
             greatest = greatest.cwiseMax(seen->head<2>());
         }
         if (least.x() <= greatest.x()) pan(middle_px - (least + greatest) / 2.0);
         double needed_m = 0.0;
-        const Eigen::Vector3d middle_m = target_m + ((middle_px - viewport_px / 2.0).x() * right() -
-                                                     (middle_px - viewport_px / 2.0).y() * up()) /
+        const Eigen::Vector3d middle_m = target_m + ((middle_px - viewport_px / 2.0).x() * across -
+                                                     (middle_px - viewport_px / 2.0).y() * upwards) /
                                                         pixelsPerMetre(distance_m);
         for (const Eigen::Vector3d& p : points_m) {
             const Eigen::Vector3d off = p - middle_m;
-            const double beyond = off.dot(forward());
-            needed_m = std::max({needed_m, std::abs(off.dot(right())) / half_view.x() - beyond,
-                                 std::abs(off.dot(up())) / half_view.y() - beyond});
+            const double beyond = off.dot(ahead);
+            needed_m = std::max({needed_m, std::abs(off.dot(across)) / half_view.x() - beyond,
+                                 std::abs(off.dot(upwards)) / half_view.y() - beyond});
         }
         distance_m = std::max(needed_m, 1e-3 * radius_m);
     }

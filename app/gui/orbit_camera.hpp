@@ -52,6 +52,10 @@ class OrbitCamera {
     /// Moves so that all points are in view within the margins, whatever way it looks. Does nothing without
     /// points.
     void fit(std::span<const Eigen::Vector3d> points_m, const ViewMargins& margins_px);
+
+  private:
+    [[nodiscard]] std::optional<Eigen::Vector3d> project(const Eigen::Matrix4d& view_projection,
+                                                         const Eigen::Vector3d& scene_m) const;
 };
 
 }  // namespace terrawalk::gui
