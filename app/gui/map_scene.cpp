@@ -119,18 +119,6 @@ void drawPart(QPainter& painter, const MapTrack& track, double from_s, double to
     drawInPieces(painter, line, pen);
 }
 
-/// Text with an edge that sets it off from any ground: glyphs drawn about it are kept by the painter, an
-/// outline would be made anew for each label.
-void drawLabel(QPainter& painter, QPointF at, const QString& label, const QPalette& palette) {
-    constexpr double r = kHalo_px / 2.0, d = 0.7 * r;
-    constexpr std::array<QPointF, 8> kAround{QPointF(r, 0), QPointF(-r, 0), QPointF(0, r),  QPointF(0, -r),
-                                             QPointF(d, d), QPointF(d, -d), QPointF(-d, d), QPointF(-d, -d)};
-    painter.setPen(palette.color(QPalette::Base));
-    for (const QPointF& off : kAround) painter.drawText(at + off, label);
-    painter.setPen(palette.color(QPalette::Text));
-    painter.drawText(at, label);
-}
-
 void drawVector(QPainter& painter, QPointF from, QPointF to) {
     const QPointF along = to - from;
     const double length = std::hypot(along.x(), along.y());
@@ -148,6 +136,17 @@ void drawVector(QPainter& painter, QPointF from, QPointF to) {
 }
 
 }  // namespace
+
+// Glyphs drawn about it are kept by the painter, an outline would be made anew for each label.
+void drawLabel(QPainter& painter, QPointF at, const QString& label, const QPalette& palette) {
+    constexpr double r = kHalo_px / 2.0, d = 0.7 * r;
+    constexpr std::array<QPointF, 8> kAround{QPointF(r, 0), QPointF(-r, 0), QPointF(0, r),  QPointF(0, -r),
+                                             QPointF(d, d), QPointF(d, -d), QPointF(-d, d), QPointF(-d, -d)};
+    painter.setPen(palette.color(QPalette::Base));
+    for (const QPointF& off : kAround) painter.drawText(at + off, label);
+    painter.setPen(palette.color(QPalette::Text));
+    painter.drawText(at, label);
+}
 
 QRectF MapScene::extent_m() const {
     QRectF extent;

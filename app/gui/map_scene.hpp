@@ -84,6 +84,8 @@ struct TrackHit {
 inline const QColor kEdgeInk(70, 35, 20);  ///< of terraces
 inline const QColor kExcludedInk(110, 110, 110);
 
+/// Text with an edge that sets it off from any ground.
+void drawLabel(QPainter& painter, QPointF at, const QString& label, const QPalette& palette);
 void drawPoints(QPainter& painter, const MapScene& scene, const MapTransform& transform);
 void drawTracks(QPainter& painter, const MapScene& scene, const MapTransform& transform);
 /// Excluded stretches of tracks, and the selected one.

@@ -1,7 +1,6 @@
 #include "app/gui/terrain_furniture.hpp"
 
 #include <QCoreApplication>
-#include <QPainterPath>
 #include <algorithm>
 #include <cmath>
 
@@ -22,16 +21,6 @@ std::optional<QPointF> onScreen(const TerrainFrame& frame, const Eigen::Vector3d
     const auto seen = frame.camera.project(frame.scene->toScene(map_m, frame.exaggeration));
     if (!seen) return std::nullopt;
     return QPointF(seen->x(), seen->y());
-}
-
-/// Text with an edge that sets it off from any ground.
-void drawHaloed(QPainter& painter, QPointF at, const QString& text, const QPalette& palette) {
-    QPainterPath path;
-    path.addText(at, painter.font(), text);
-    QColor halo = palette.color(QPalette::Base);
-    halo.setAlpha(200);
-    painter.strokePath(path, QPen(halo, 2.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-    painter.fillPath(path, palette.color(QPalette::Text));
 }
 
 /// Numbers along one edge of the floor, outside of it, as many as have room.
@@ -66,7 +55,7 @@ void drawEdgeNumbers(QPainter& painter, const TerrainFrame& frame, const QPalett
                                        [&](const QRectF& other) { return other.intersects(box); });
         if (!free) continue;
         taken.push_back(box);
-        drawHaloed(painter, QPointF(middle.x() - wide / 2.0, middle.y() + high / 2.0 - 1.0), text, palette);
+        drawLabel(painter, QPointF(middle.x() - wide / 2.0, middle.y() + high / 2.0 - 1.0), text, palette);
     }
 }
 
@@ -102,8 +91,8 @@ void drawHeights(QPainter& painter, const TerrainFrame& frame, const QPalette& p
         painter.setPen(QPen(palette.color(QPalette::Text), 1.0));
         painter.drawLine(*tick, *tick - QPointF(5, 0));
         const QString text = lengthText(h, inUnit(tick_m) < 1.0 - 1e-9 ? 1 : 0);
-        drawHaloed(painter, *tick - QPointF(9.0 + metrics.horizontalAdvance(text), -metrics.ascent() * 0.4),
-                   text, palette);
+        drawLabel(painter, *tick - QPointF(9.0 + metrics.horizontalAdvance(text), -metrics.ascent() * 0.4),
+                  text, palette);
     }
 }
 
@@ -196,7 +185,7 @@ void drawPins(QPainter& painter, const TerrainFrame& frame, const MapScene& map,
                                        [&](const QRectF& other) { return other.intersects(box); });
         if (!free && !highlighted) continue;
         taken.push_back(box);
-        drawHaloed(painter, label, name, palette);
+        drawLabel(painter, label, name, palette);
     }
     painter.setOpacity(1.0);
 }
