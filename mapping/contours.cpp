@@ -214,20 +214,22 @@ bool startsBefore(const Segment& a, const Segment& b) {
     return a.level != b.level ? a.level < b.level : a.from < b.from;
 }
 
+constexpr std::size_t kSegmentsBetweenStops = 65'536;
+
 class Chainer {
   public:
     Chainer(std::vector<Segment> segments, const GridGeometry& geometry, const ContourOptions& options)
-        : segments_(std::move(segments)), geometry_(geometry), options_(options) {
-        tbb::parallel_sort(segments_, startsBefore);  // no two are alike, so that the order is one
-        taken_.assign(segments_.size(), false);
-        has_before_.assign(segments_.size(), false);
-        for (const Segment& segment : segments_) {
-            const std::size_t next = after(segment);
-            if (next < segments_.size()) has_before_[next] = true;
-        }
-    }
+        : segments_(std::move(segments)), geometry_(geometry), options_(options) {}
 
     Result<std::vector<Contour>> chain(const std::stop_token& stop) {
+        if (!sort(stop)) return cancelled();
+        taken_.assign(segments_.size(), false);
+        has_before_.assign(segments_.size(), false);
+        for (std::size_t i = 0; i < segments_.size(); ++i) {
+            if (i % kSegmentsBetweenStops == 0 && stop.stop_requested()) return cancelled();
+            const std::size_t next = after(segments_[i]);
+            if (next < segments_.size()) has_before_[next] = true;
+        }
         std::vector<Contour> lines;
         const auto takeAll = [&](bool rings) {
             for (std::size_t i = 0; i < segments_.size() && !stop.stop_requested(); ++i) {
@@ -245,6 +247,19 @@ class Chainer {
     }
 
   private:
+    /// No two segments are alike, so that the order is one. False when it was stopped.
+    bool sort(const std::stop_token& stop) {
+        struct Stopped {};
+        try {
+            tbb::parallel_sort(segments_, [&stop](const Segment& a, const Segment& b) {
+                if (stop.stop_requested()) throw Stopped{};
+                return startsBefore(a, b);
+            });
+        } catch (const Stopped&) {
+            return false;
+        }
+        return true;
+    }
     [[nodiscard]] std::size_t after(const Segment& segment) const {
         Segment wanted;
         wanted.level = segment.level;
@@ -418,6 +433,7 @@ Result<ContourSet> contourLines(const ElevationGrid& heights, const ContourOptio
         if (stop.stop_requested()) return cancelled();
         std::vector<Segment> segments;
         for (std::vector<Segment>& row : by_row) {
+            if (stop.stop_requested()) return cancelled();
             segments.insert(segments.end(), row.begin(), row.end());
             std::vector<Segment>().swap(row);
         }
