@@ -45,7 +45,8 @@ struct LasHeader {
 
 class LasReader {
   public:
-    LasReader(const std::filesystem::path& file, ReadableFile input) : file_(file), input_(std::move(input)) {}
+    LasReader(const std::filesystem::path& file, ReadableFile input)
+        : file_(file), input_(std::move(input)) {}
 
     Result<ScatteredPoints> read(const std::vector<int>& classes, Progress& progress,
                                  const std::stop_token& stop) {

@@ -20,6 +20,11 @@ bool isDegrees(std::string_view name) {
     return start == "lon" || start == "lat" || start == "Lon" || start == "Lat";
 }
 
+bool isPointNumber(std::string_view field) {
+    return field.size() <= 6 &&
+           std::all_of(field.begin(), field.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
 class PointTableParser {
   public:
     PointTableParser(const std::filesystem::path& file, std::size_t bytes) : file_(file), bytes_(bytes) {}
@@ -79,7 +84,8 @@ class PointTableParser {
                 if (at == end) return nullptr;
             }
         }
-        if (*at != separator_ && *at != '\n' && *at != '\r') return nullptr;
+        const bool ends = *at == '\n' || *at == '\r';
+        if (!ends && (*at != separator_ || roles_.size() == columns_)) return nullptr;
         if (numbers[3] < 0.0 || (place_[4] && numbers[4] == 0.0)) return nullptr;
         points_.points.emplace_back(numbers[0], numbers[1], numbers[2]);
         if (place_[3]) points_.sigmas.push_back(numbers[3]);
@@ -101,6 +107,11 @@ class PointTableParser {
             if (has_header_) return {};
         }
         split(line);
+        // A remark may hold separators; numbers beyond the header were numbers with commas.
+        if (has_header_ && fields_.size() > columns_ && parseNumber(fields_[columns_])) {
+            return bad(fmt::format("{} fields under a header of {}", fields_.size(), columns_),
+                       "write numbers with a dot as decimal sign and nothing between thousands");
+        }
         if (fields_.size() < fields_wanted_) {
             return bad(fmt::format("{} fields, but column {} is needed", fields_.size(), fields_wanted_),
                        "one line for each point, with a dot as decimal sign");
@@ -114,8 +125,11 @@ class PointTableParser {
             if (!place_[k]) continue;
             const auto number = parseNumber(fields_[*place_[k]]);
             if (!number) {
-                return bad(fmt::format("{} in column {} is no number", inQuotes(fields_[*place_[k]]),
-                                       *place_[k] + 1));
+                const std::string_view field = fields_[*place_[k]];
+                return bad(fmt::format("{} in column {} is no number", inQuotes(field), *place_[k] + 1),
+                           field.find(',') == std::string_view::npos
+                               ? ""
+                               : "write numbers with a dot as decimal sign and nothing between thousands");
             }
             numbers[k] = *number;
         }
@@ -129,12 +143,19 @@ class PointTableParser {
 
     /// The first line that counts: names, or already a point.
     Result<void> takeHeader(std::string_view line) {
-        separator_ = line.find(',') != std::string_view::npos    ? ','
-                     : line.find(';') != std::string_view::npos  ? ';'
+        // A comma may stand in a number.
+        separator_ = line.find(';') != std::string_view::npos    ? ';'
                      : line.find('\t') != std::string_view::npos ? '\t'
+                     : line.find(',') != std::string_view::npos  ? ','
                                                                  : ' ';
         split(line);
+        columns_ = fields_.size();
         if (fields_.size() >= 3 && parseNumber(fields_[0]) && parseNumber(fields_[1])) {
+            if (fields_.size() > 3 && isPointNumber(fields_[0]) && !isPointNumber(fields_[1])) {
+                return bad(
+                    fmt::format("{} looks like the number of a point, not like x", inQuotes(fields_[0])),
+                    "put a header above the table, e.g. number,n,e,z");
+            }
             place_ = {0, 1, 2, std::nullopt, std::nullopt};
             fields_wanted_ = 3;
             points_.notes.emplace_back(
@@ -194,6 +215,7 @@ class PointTableParser {
     std::vector<std::size_t> roles_;  ///< by column, as far as one is needed: which number, or none
     std::vector<std::string_view> fields_;
     std::size_t fields_wanted_ = 0;
+    std::size_t columns_ = 0;  ///< of the first line
     std::size_t line_ = 0;
     char separator_ = ',';
     bool has_header_ = false;

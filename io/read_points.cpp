@@ -14,16 +14,24 @@ std::optional<NamedColumn> namedColumn(std::string_view name) {
     std::transform(text.begin(), text.end(), text.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     std::optional<LengthUnit> unit;
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kEndings{
-        {{"_m", "m"}, {"_usft", "us-ft"}, {"_ft", "ft"}}};
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kEndings{{{"_m", "m"},
+                                                                                     {"[m]", "m"},
+                                                                                     {"(m)", "m"},
+                                                                                     {"_usft", "us-ft"},
+                                                                                     {"[us-ft]", "us-ft"},
+                                                                                     {"(us-ft)", "us-ft"},
+                                                                                     {"_ft", "ft"},
+                                                                                     {"[ft]", "ft"},
+                                                                                     {"(ft)", "ft"}}};
     for (const auto& [ending, symbol] : kEndings) {
         if (text.size() > ending.size() && text.ends_with(ending)) {
             unit = lengthUnit(symbol);
             text.resize(text.size() - ending.size());
+            while (text.ends_with(' ')) text.pop_back();
             break;
         }
     }
-    constexpr std::array<std::pair<std::string_view, PointColumn>, 16> kNames{
+    constexpr std::array<std::pair<std::string_view, PointColumn>, 19> kNames{
         {{"x", PointColumn::X},
          {"e", PointColumn::X},
          {"east", PointColumn::X},
@@ -39,6 +47,9 @@ std::optional<NamedColumn> namedColumn(std::string_view name) {
          {"elevation", PointColumn::Z},
          {"sigma_z", PointColumn::Sigma},
          {"sigma_v", PointColumn::Sigma},
+         {"\u4e1c\u5750\u6807", PointColumn::X},  // east coordinate, north coordinate, height
+         {"\u5317\u5750\u6807", PointColumn::Y},
+         {"\u9ad8\u7a0b", PointColumn::Z},
          {"used", PointColumn::Used}}};
     for (const auto& [known, column] : kNames) {
         if (text == known) return NamedColumn{column, unit};

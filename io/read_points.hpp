@@ -31,8 +31,9 @@ struct PointReadOptions {
 
 /// Reads points by the file's extension:
 /// .csv .txt .xyz  a table with comma, semicolon, tab or blanks; a header names x or e or easting, y or n or
-///                 northing, z or h or u or height or elevation, and maybe sigma_z or sigma_v, each with an
-///                 ending _m, _ft or _usft that tells the unit; without a header the first three columns
+///                 northing, z or h or u or height or elevation (or the Chinese names), and maybe sigma_z or
+///                 sigma_v, each with an ending _m, [m], (m) that tells the unit, and so with ft and usft;
+///                 without a header the first three columns
 /// .las            LAS 1.0 to 1.4, formats 0 to 10, not compressed; withheld points are left out
 /// .ply            text or binary, vertices with x, y, z
 /// others          points of a vector file that GDAL reads (GeoPackage, Shapefile, GeoJSON, ...), heights

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <csignal>
 #include <system_error>
 
 namespace terrawalk {
@@ -17,6 +20,28 @@ tl::unexpected<Error> writeFailed(int error, const std::filesystem::path& file) 
     return systemError("cannot write: " + std::generic_category().message(error), file);
 }
 
+/// What a run that was killed left of this file, long enough ago that nobody can still be writing it.
+void removeLeftOvers(const std::filesystem::path& target) {
+    constexpr auto kLong = std::chrono::minutes(1);
+    const std::string start = fmt::format(".{}.partial-", target.filename().string());
+    const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        if (!name.starts_with(start)) continue;
+        pid_t writer = 0;
+        const char* const digits = name.data() + start.size();
+        const auto read = std::from_chars(digits, name.data() + name.size(), writer);
+        if (read.ec != std::errc() || read.ptr == digits || *read.ptr != '-' || writer <= 0) continue;
+        if (::kill(writer, 0) == 0 || errno != ESRCH) continue;
+        std::error_code unknown;
+        const auto written = std::filesystem::last_write_time(entry->path(), unknown);
+        if (unknown || std::filesystem::file_time_type::clock::now() - written < kLong) continue;
+        std::filesystem::remove(entry->path(), unknown);
+    }
+}
+
 }  // namespace
 
 Result<ReplacingFile> ReplacingFile::create(const std::filesystem::path& target) {
@@ -25,6 +50,7 @@ Result<ReplacingFile> ReplacingFile::create(const std::filesystem::path& target)
     if (std::filesystem::is_directory(target, unknown)) {
         return systemError("cannot write: a folder of that name is in the way", target);
     }
+    removeLeftOvers(target);
     for (int attempt = 0; attempt < kMostTemporaries; ++attempt) {
         ReplacingFile file;
         std::filesystem::path temporary = target;

@@ -10,7 +10,8 @@
 namespace terrawalk {
 
 /// A file that replaces another in one step: written beside the target, renamed over it by `commit`, removed
-/// by the destructor without commit. Not thread-safe. Errors: System.
+/// by the destructor without commit. What a run that was killed left of the target's own a minute ago or more
+/// is removed first. Not thread-safe. Errors: System.
 class ReplacingFile {
   public:
     [[nodiscard]] static Result<ReplacingFile> create(const std::filesystem::path& target);

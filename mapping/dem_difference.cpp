@@ -7,6 +7,7 @@ namespace terrawalk {
 
 namespace {
 
+constexpr std::size_t kCellsBetweenStops = 1U << 20U;
 constexpr double kNormal95 = 1.959963984540054;  // two-sided
 
 }  // namespace
@@ -16,12 +17,14 @@ Result<DemDifference> demDifference(const ElevationGrid& later, const ElevationG
     assert(later.geometry == earlier.geometry);
     DemDifference d;
     d.change = later;
+    if (stop.stop_requested()) return cancelled();
     for (std::size_t cell = 0; cell < d.change.heights_m.size(); ++cell) {
         d.change.heights_m[cell] -= earlier.heights_m[cell];
     }
     d.significance = d.change;
     ElevationGrid significant = d.change;
     for (std::size_t cell = 0; cell < d.change.heights_m.size(); ++cell) {
+        if (cell % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
         const double change = d.change.heights_m[cell];
         if (std::isnan(change)) continue;
         const double own = errors.sigmas_m.size() == 1 ? errors.sigmas_m.front() : errors.sigmas_m[cell];

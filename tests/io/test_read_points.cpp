@@ -90,9 +90,33 @@ TEST(PointTable, LeavesOutWhatIsMarkedAsNotUsed) {
     EXPECT_FALSE(readText("e_m,n_m,u_m,used\n1,2,,1\n"));
 }
 
+TEST(PointTable, TakesTablesAsOthersWriteThem) {
+    const Eigen::Vector3d point(500000.5, 2500000.25, 12.5);
+    for (const std::string& table :
+         {std::string("x [m];y [m];z [m]\r\n500000.5;2500000.25;12.5\r\n"),
+          std::string("北坐标,东坐标,高程\n2500000.25,500000.5,12.5\n"),
+          std::string("id\tE (m)\tN (m)\tHeight (m)\n7\t500000.5\t2500000.25\t12.5\n"),
+          std::string("x,y,z\n500000.5,2500000.25,12.5,\n")}) {
+        const auto points = readText(table);
+        ASSERT_TRUE(points) << table << points.error().text();
+        ASSERT_EQ(points->points.size(), 1U);
+        EXPECT_EQ(points->points[0], point) << table;
+    }
+    // Never a wrong height in silence.
+    for (const std::string& table :
+         {std::string("x,y,z\n500000,5,2500000,25,12,5\n"), std::string("x;y;z\n500000,5;2500000,25;12,5\n"),
+          std::string("x,y,z\n500,000.5,2,500,000.25,12.5\n")}) {
+        const auto points = readText(table);
+        ASSERT_FALSE(points) << table;
+        EXPECT_THAT(points.error().text(), HasSubstr("a dot as decimal sign")) << table;
+    }
+    EXPECT_THAT(readText("1,2500000.25,500000.5,12.5,edge\n").error().text(), HasSubstr("number of a point"));
+}
+
 TEST(PointTable, NamesTheLineOfWhatIsWrong) {
     EXPECT_THAT(readText("x,y,z\n1,2,3\n1,2\n").error().text(), HasSubstr("points.csv:3"));
-    EXPECT_THAT(readText("x,y,z\n1,2,three\n").error().text(), HasSubstr(":2: \"three\" in column 3 is no number"));
+    EXPECT_THAT(readText("x,y,z\n1,2,three\n").error().text(),
+                HasSubstr(":2: \"three\" in column 3 is no number"));
     EXPECT_THAT(readText("a,b,z\n1,2,3\n").error().text(), HasSubstr("no x, y and z"));
     EXPECT_THAT(readText("lat,lon,z\n1,2,3\n").error().text(), HasSubstr("degrees; project them"));
     EXPECT_THAT(readText("x_m,y_ft,z_m\n1,2,3\n").error().text(), HasSubstr("different units"));

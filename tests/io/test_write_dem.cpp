@@ -1,5 +1,6 @@
 #include <cpl_conv.h>
 #include <cpl_string.h>
+#include <fmt/format.h>
 #include <gdal_frmts.h>
 #include <gdal_priv.h>
 #include <gdal_utils.h>
@@ -307,6 +308,22 @@ TEST(WriteDem, RemovesSideFilesThatWouldOutrankIt) {
     }
     write(ramp(3, 2), folder / "dem.tif");
     EXPECT_THAT(namesIn(folder.path()), ElementsAre("dem.tif"));
+}
+
+TEST(WriteDem, RemovesWhatAKilledRunLeftOfIt) {
+    const TemporaryFolder folder;
+    // No process has this number: it is above what Linux gives.
+    const std::string left = ".dem.tif.partial-999999999-0", young = ".dem.tif.partial-999999999-1";
+    const std::string own = fmt::format(".dem.tif.partial-{}-7", ::getpid()),
+                      other = ".b.tif.partial-999999999-0";
+    for (const std::string& name : {left, young, own, other}) {
+        writeBytes(folder / name, "part");
+        if (name == young) continue;
+        std::filesystem::last_write_time(
+            folder / name, std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+    }
+    write(ramp(3, 2), folder / "dem.tif");
+    EXPECT_THAT(namesIn(folder.path()), testing::UnorderedElementsAre("dem.tif", young, own, other));
 }
 
 TEST(WriteDem, RefusesGridsThatTheFileCannotHold) {
