@@ -308,7 +308,7 @@ Plot innovationPlot(const std::vector<SensorInnovations>& sensors) {
             series.y.push_back(static_cast<double>(reading.over_sigma));
         }
         const double from = sensor.readings.front().time_s, to = sensor.readings.back().time_s;
-        PlotPanel panel{text(sensor.consistency.sensor), "σ", 1, {}, false};
+        PlotPanel panel{reportWords(sensor.consistency.sensor), "σ", 1, {}, false};
         gated.sets_scale = used.x.empty();
         panel.series.push_back(std::move(used));
         if (!gated.x.empty()) panel.series.push_back(std::move(gated));
@@ -337,7 +337,7 @@ Plot consistencyPlot(const std::vector<SensorInnovations>& sensors) {
         if (sums.n == 0 || !(sums.dof > 0.0)) continue;
         bars.x.push_back(static_cast<double>(plot.categories.size()));
         bars.y.push_back(sums.mean_nis / sums.dof);
-        plot.categories << QString("%1 (%2)").arg(text(sums.sensor)).arg(sums.n);
+        plot.categories << QString("%1 (%2)").arg(reportWords(sums.sensor)).arg(sums.n);
     }
     if (bars.x.empty()) return noFilter();
     plot.bar_width = 0.5;
@@ -376,7 +376,7 @@ Plot groundPlot(std::size_t run, const Products& products) {
         const auto state = static_cast<GroundPointState>(i);
         const bool stands_back = state == GroundPointState::Thinned || state == GroundPointState::RunLeftOut;
         series.style = SeriesStyle::Dots;
-        series.name = QString("%1 (%2)").arg(text(name(state))).arg(series.x.size());
+        series.name = QString("%1 (%2)").arg(reportWords(name(state))).arg(series.x.size());
         series.ink = state == GroundPointState::Used ? SeriesInk::First
                      : stands_back                   ? SeriesInk::Quiet
                                                      : static_cast<SeriesInk>(1 + refused++ % 5);
@@ -632,8 +632,12 @@ Plot crossValidation(const SurveyReport& report) {
     const double share = 0.8 / static_cast<double>(std::max<std::size_t>(1, comparison.hold_outs.size()));
     plot.bar_width = share;
     for (std::size_t h = 0; h < comparison.hold_outs.size(); ++h) {
-        PlotSeries bars{
-            text(comparison.hold_outs[h]), SeriesStyle::Bars, static_cast<SeriesInk>(h % 6), {}, {}, {}};
+        PlotSeries bars{reportWords(comparison.hold_outs[h]),
+                        SeriesStyle::Bars,
+                        static_cast<SeriesInk>(h % 6),
+                        {},
+                        {},
+                        {}};
         for (std::size_t i = 0; i < comparison.ranking.size(); ++i) {
             for (const InterpolationScore& score : comparison.scores) {
                 if (score.method != comparison.ranking[i] || score.hold_out != comparison.hold_outs[h])

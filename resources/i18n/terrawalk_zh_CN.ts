@@ -1309,6 +1309,58 @@
             <source>run %1 names the mark %2, which is not known; correct the name, or give the table with that mark</source>
             <translation>测线 %1 的标志点 %2 未知；请更正名称，或提供含该点的表</translation>
         </message>
+        <message>
+            <source>GNSS position</source>
+            <translation>GNSS 位置</translation>
+        </message>
+        <message>
+            <source>GNSS velocity</source>
+            <translation>GNSS 速度</translation>
+        </message>
+        <message>
+            <source>barometer</source>
+            <translation>气压计</translation>
+        </message>
+        <message>
+            <source>optical flow</source>
+            <translation>光流</translation>
+        </message>
+        <message>
+            <source>mean optical flow</source>
+            <translation>平均光流</translation>
+        </message>
+        <message>
+            <source>accelerometer</source>
+            <translation>加速度计</translation>
+        </message>
+        <message>
+            <source>height assumption</source>
+            <translation>高度假设</translation>
+        </message>
+        <message>
+            <source>leave-one-out</source>
+            <translation>逐点留出</translation>
+        </message>
+        <message>
+            <source>random-folds</source>
+            <translation>随机分组</translation>
+        </message>
+        <message>
+            <source>spatial-blocks</source>
+            <translation>空间分块</translation>
+        </message>
+        <message>
+            <source>heading row</source>
+            <translation>航向方程</translation>
+        </message>
+        <message>
+            <source>mark tie</source>
+            <translation>标志点约束</translation>
+        </message>
+        <message>
+            <source>GNSS height</source>
+            <translation>GNSS 高程</translation>
+        </message>
     </context>
     <context>
         <name>RunFigure</name>
