@@ -150,6 +150,15 @@ Result<void> cleanInput(const SurfaceRequest& request, double metres_per_unit, S
         kept.points_m.push_back(input.points_m[i]);
         if (!input.sigmas_m.empty()) kept.sigmas_m.push_back(input.sigmas_m[i]);
     }
+    if (kept.points_m.empty()) {
+        std::string taken;
+        for (const CountedReason& r : report.points_left_out) {
+            taken += fmt::format("{}{}: {}", taken.empty() ? "" : ", ", r.reason, r.count);
+        }
+        return badData(fmt::format("cleaning left none of {} points ({})", input.points_m.size(), taken),
+                       request.points, 0,
+                       "leave out that filter: its distances do not fit points so far apart");
+    }
     input = std::move(kept);
     return {};
 }

@@ -99,6 +99,17 @@ TEST(SurfaceCommand, SaysWhatIsWrong) {
     EXPECT_THAT(picture.err, HasSubstr(".tif"));
 }
 
+TEST(SurfaceCommand, NamesTheFilterThatTookAllPoints) {
+    const TemporaryFolder scratch;
+    std::string text = "x,y,z\n";
+    for (int i = 0; i < 64; ++i) text += fmt::format("{},{},1\n", 20 * (i % 8), 20 * (i / 8));
+    writeBytes(scratch / "p.csv", text);
+    const auto outcome = terrawalk(
+        {"surface", (scratch / "p.csv").string(), "-o", (scratch / "dem.tif").string(), "--clean", "radius"});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("isolated: 64"));
+}
+
 TEST(SurfaceCommand, PointsCannotCertifyTheirOwnDem) {
     const TemporaryFolder scratch;
     std::string text = "x,y,z\n", other = "x,y,z\n";
