@@ -106,7 +106,9 @@ Result<CoordinateSystem> coordinateSystemOf(const SurfaceRequest& request, const
     if (unit && *unit != crs->unit) {
         return badData(
             fmt::format("the points are in {}, but {} is in {}", unit->symbol, crs->name, crs->unit.symbol),
-            request.points, 0, "name the CRS of these points");
+            request.points, 0,
+            "name the CRS of these points, or their unit: _ft is the international foot, _usft that of US "
+            "surveys");
     }
     if (!request.crs.empty() && !points.crs.empty()) {
         const auto own = describeCrs(points.crs);
