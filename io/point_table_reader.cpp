@@ -20,9 +20,8 @@ bool isDegrees(std::string_view name) {
     return start == "lon" || start == "lat" || start == "Lon" || start == "Lat";
 }
 
-bool isPointNumber(std::string_view field) {
-    return field.size() <= 6 &&
-           std::all_of(field.begin(), field.end(), [](char c) { return c >= '0' && c <= '9'; });
+bool isWhole(std::string_view field) {
+    return std::all_of(field.begin(), field.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
 class PointTableParser {
@@ -84,12 +83,15 @@ class PointTableParser {
                 if (at == end) return nullptr;
             }
         }
-        const bool ends = *at == '\n' || *at == '\r';
-        if (!ends && (*at != separator_ || roles_.size() == columns_)) return nullptr;
+        if (*at != separator_ && *at != '\n' && *at != '\r') return nullptr;
+        const char* const line_end = findLineEnd(at, end);
+        if (roles_.size() + static_cast<std::size_t>(std::count(at, line_end, separator_)) > columns_) {
+            return nullptr;
+        }
         if (numbers[3] < 0.0 || (place_[4] && numbers[4] == 0.0)) return nullptr;
         points_.points.emplace_back(numbers[0], numbers[1], numbers[2]);
         if (place_[3]) points_.sigmas.push_back(numbers[3]);
-        return afterLineEnd(findLineEnd(at, end), end);
+        return afterLineEnd(line_end, end);
     }
 
     /// What takePlainLine() looks for, column by column.
@@ -151,10 +153,15 @@ class PointTableParser {
         split(line);
         columns_ = fields_.size();
         if (fields_.size() >= 3 && parseNumber(fields_[0]) && parseNumber(fields_[1])) {
-            if (fields_.size() > 3 && isPointNumber(fields_[0]) && !isPointNumber(fields_[1])) {
+            if (fields_.size() > 3 && isWhole(fields_[0]) && fields_[0].size() <= 6 && !isWhole(fields_[1])) {
                 return bad(
                     fmt::format("{} looks like the number of a point, not like x", inQuotes(fields_[0])),
                     "put a header above the table, e.g. number,n,e,z");
+            }
+            if (separator_ == ',' && fields_.size() >= 6 &&
+                std::all_of(fields_.begin(), fields_.begin() + 6, isWhole)) {
+                return bad("these columns could be numbers with a comma as decimal sign",
+                           "put a header above the table, and write numbers with a dot");
             }
             place_ = {0, 1, 2, std::nullopt, std::nullopt};
             fields_wanted_ = 3;

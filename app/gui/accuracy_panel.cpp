@@ -14,6 +14,7 @@
 #include "app/gui/accuracy_words.hpp"
 #include "app/gui/figures.hpp"
 #include "app/gui/report_words.hpp"
+#include "app/gui/tables.hpp"
 #include "app/gui/theme.hpp"
 
 namespace terrawalk::gui {
@@ -61,24 +62,11 @@ void fitHeight(QTableView& table) {
 }
 
 void dress(QTableView& table) {
-    table.verticalHeader()->hide();
-    table.verticalHeader()->setDefaultSectionSize(26);
-    table.setShowGrid(false);
+    dressTable(table, 26);
     table.setAlternatingRowColors(true);
-    table.setSelectionBehavior(QAbstractItemView::SelectRows);
     table.setSelectionMode(QAbstractItemView::SingleSelection);
     table.setEditTriggers(QAbstractItemView::NoEditTriggers);
     table.setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    table.setWordWrap(false);
-    // Tab leaves the table; arrow keys move in it.
-    table.setTabKeyNavigation(false);
-    table.horizontalHeader()->setHighlightSections(false);
-}
-
-QTableWidgetItem* cell(const QString& words, bool number) {
-    auto* item = new QTableWidgetItem(words);
-    item->setTextAlignment((number ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
-    return item;
 }
 
 QString bullets(const std::vector<std::string>& lines) {
@@ -197,12 +185,12 @@ void AccuracyPanel::fillMarks(const SurveyReport& report) {
         const Residual& r = *rows[i];
         const int row = static_cast<int>(i);
         const double d = r.difference_enu_m.z(), sigma = r.sigma_enu_m.z();
-        marks_->setItem(row, 0, cell(text(r.mark), false));
-        marks_->setItem(row, 1, cell(r.role == MarkRole::Control ? tr("control") : tr("check"), false));
+        marks_->setItem(row, 0, tableCell(text(r.mark), false));
+        marks_->setItem(row, 1, tableCell(r.role == MarkRole::Control ? tr("control") : tr("check"), false));
         const QString words = signedLength(d);
-        marks_->setItem(row, 2, cell(words.left(words.indexOf(' ')), true));
-        marks_->setItem(row, 3, cell(present(sigma) ? number(inUnit(sigma), 3) : "–", true));
-        auto* ratio = cell(present(sigma) ? number(std::abs(d) / sigma, 1) : "–", true);
+        marks_->setItem(row, 2, tableCell(words.left(words.indexOf(' ')), true));
+        marks_->setItem(row, 3, tableCell(present(sigma) ? number(inUnit(sigma), 3) : "–", true));
+        auto* ratio = tableCell(present(sigma) ? number(std::abs(d) / sigma, 1) : "–", true);
         if (present(sigma) && std::abs(d) > 1.96 * sigma) ratio->setForeground(warningColour());
         marks_->setItem(row, 4, ratio);
     }

@@ -24,6 +24,7 @@
 #include "app/gui/background.hpp"
 #include "app/gui/recent_surveys.hpp"
 #include "app/gui/report_words.hpp"
+#include "app/gui/tables.hpp"
 #include "app/gui/theme.hpp"
 
 namespace terrawalk::gui {
@@ -153,14 +154,8 @@ void NewSurveyDialog::buildTable() {
         table_->horizontalHeaderItem(c)->setTextAlignment(
             (c == LengthColumn ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
     }
-    table_->verticalHeader()->hide();
-    table_->verticalHeader()->setDefaultSectionSize(4 * kGrid_px);
-    table_->setShowGrid(false);
+    dressTable(*table_, 4 * kGrid_px);
     table_->setAlternatingRowColors(true);
-    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-    table_->setWordWrap(false);
-    table_->setTabKeyNavigation(false);
-    table_->horizontalHeader()->setHighlightSections(false);
     table_->horizontalHeader()->setStretchLastSection(true);
     connect(table_, &QTableWidget::itemChanged, this, [this](QTableWidgetItem* item) {
         if (filling_ || item->column() != RunColumn) return;

@@ -11,6 +11,7 @@
 #include "app/gui/accuracy_words.hpp"
 #include "app/gui/setting_editor.hpp"
 #include "app/gui/survey_session.hpp"
+#include "app/gui/tables.hpp"
 #include "app/gui/theme.hpp"
 
 namespace terrawalk::gui {
@@ -22,9 +23,8 @@ QString valueIn(const RunSettings& settings, const QString& key) {
 }
 
 QTableWidgetItem* cell(const QString& text, bool number = false) {
-    auto* item = new QTableWidgetItem(text);
+    QTableWidgetItem* item = tableCell(text, number);
     item->setToolTip(text);
-    item->setTextAlignment((number ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
     return item;
 }
 
@@ -32,14 +32,9 @@ QTableWidget* table(const QString& name, const QString& accessible_name) {
     auto* made = new QTableWidget;
     made->setObjectName(name);
     made->setAccessibleName(accessible_name);
+    dressTable(*made, 28);
     made->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    made->setSelectionBehavior(QAbstractItemView::SelectRows);
     made->setSelectionMode(QAbstractItemView::SingleSelection);
-    made->setTabKeyNavigation(false);
-    made->setShowGrid(false);
-    made->verticalHeader()->hide();
-    made->verticalHeader()->setDefaultSectionSize(28);
-    made->horizontalHeader()->setHighlightSections(false);
     return made;
 }
 

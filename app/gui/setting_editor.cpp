@@ -150,9 +150,7 @@ void SettingEditor::buildChoice(const QStringList& names) {
     choice->setAccessibleName(settingLabel(key_));
     choice->setMinimumContentsLength(8);
     choice->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    // The wheel is for the panel: it must not change what it only passes over.
-    choice->setFocusPolicy(Qt::StrongFocus);
-    choice->installEventFilter(this);
+    keepFromWheel(*choice);
     qobject_cast<QHBoxLayout*>(layout())->addWidget(choice, 1);
     const auto follow = [this, choice](const QString& key) {
         if (key != key_) return;

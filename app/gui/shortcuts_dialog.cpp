@@ -65,11 +65,16 @@ ShortcutsDialog::ShortcutsDialog(const std::map<QString, QAction*>& actions, con
                              {"+  −", tr("Nearer and farther")},
                              {"Home", tr("The first view again")},
                              {"Esc", tr("Ask for no place any more")}};
-    const QList<Row> plots{
-        {"←  →", tr("Earlier and later")}, {"+  −", tr("Zoom the time axis")}, {"Home", tr("Show all")}};
+    const QList<Row> plots{{"←  →", tr("Earlier and later")},
+                           {"+  −", tr("Zoom the time axis")},
+                           {"Shift+←  →", tr("Move the end of a stretch")},
+                           {"Ctrl+←  →", tr("Move its start")},
+                           {"Home", tr("Show all")}};
     const QList<Row> moves{{tr("Arrows"), tr("Move the map")},
                            {"+  −", tr("Zoom in and out")},
                            {"Home", tr("Show all")},
+                           {tr("Space"), tr("Show a cross, then click there")},
+                           {tr("Arrows"), tr("Move the cross, by a pixel with Shift")},
                            {"Enter", tr("End a line")},
                            {"Backspace", tr("Take the last vertex back")},
                            {"Esc", tr("Leave the tool, select nothing")}};

@@ -128,7 +128,7 @@ void StepsPanel::buildSearch(StepCard& card) {
     optimiser_->setAccessibleName(tr("Who searches"));
     optimiser_->setToolTip(
         tr("The optimiser that searches; Plots > Optimisers compared shows them side by side"));
-    optimiser_->setFocusPolicy(Qt::StrongFocus);
+    keepFromWheel(*optimiser_);
     for (const auto& [kind, name] : kOptimiserNames) {
         const QString word = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
         optimiser_->addItem(choiceWords(word), static_cast<int>(kind));
@@ -140,7 +140,7 @@ void StepsPanel::buildSearch(StepCard& card) {
     repeats_->setToolTip(tr("Searches with seeds one after the other; the best of them is taken"));
     repeats_->setRange(1, 20);
     repeats_->setPrefix(tr("× "));
-    repeats_->setFocusPolicy(Qt::StrongFocus);
+    keepFromWheel(*repeats_);
     layout->addWidget(optimiser_, 1);
     layout->addWidget(repeats_);
     card.addBody(row);
@@ -156,7 +156,7 @@ void StepsPanel::buildBudget(StepCard& card) {
         box->setToolTip(tip);
         box->setRange(least, greatest);
         box->setAlignment(Qt::AlignRight);
-        box->setFocusPolicy(Qt::StrongFocus);
+        keepFromWheel(*box);
         card.addField(name, box);
         return box;
     };

@@ -190,6 +190,15 @@ class Style final : public QProxyStyle {
     }
 };
 
+class WheelGuard final : public QObject {
+  protected:
+    bool eventFilter(QObject* watched, QEvent* event) override {
+        if (event->type() != QEvent::Wheel || static_cast<QWidget*>(watched)->hasFocus()) return false;
+        event->ignore();
+        return true;
+    }
+};
+
 }  // namespace
 
 namespace {
@@ -283,6 +292,12 @@ QIcon toolIcon(const QString& name) {
     QIcon made = icon(name);
     addPixmaps(made, svgOf(name), colours().on_accent, QIcon::Normal, QIcon::On);
     return made;
+}
+
+void keepFromWheel(QWidget& editor) {
+    static WheelGuard guard;
+    editor.setFocusPolicy(Qt::StrongFocus);
+    editor.installEventFilter(&guard);
 }
 
 }  // namespace terrawalk::gui

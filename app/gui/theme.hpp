@@ -4,6 +4,8 @@
 #include <QIcon>
 #include <QString>
 
+class QWidget;
+
 namespace terrawalk::gui {
 
 enum class Theme { Light, Dark };
@@ -26,6 +28,10 @@ void registerResources();
 [[nodiscard]] QIcon icon(const QString& name, const QColor& colour = {});
 /// The same for a button that stands on the accent colour while it is checked.
 [[nodiscard]] QIcon toolIcon(const QString& name);
+
+/// The wheel is for the panel that scrolls: it must not change a value that it only passes over. The editor
+/// takes it once it has the focus.
+void keepFromWheel(QWidget& editor);
 
 inline constexpr int kGrid_px = 8;
 

@@ -12,10 +12,11 @@ namespace terrawalk {
 namespace {
 
 // Measured over surfaces of 3e5 points and 1.6e7 cells (350 and 670 bytes a point, 6 and 11 bytes a cell,
-// kriging 17), rounded up.
+// kriging 17, and 29 with a multiband file), rounded up.
 constexpr double kBytesPerCellLinear = 8.0;
 constexpr double kBytesPerCell = 12.0;
 constexpr double kBytesPerVariance = 8.0;
+constexpr double kBytesPerMultiband = 12.0;
 constexpr double kBytesPerPointLinear = 400.0;
 constexpr double kBytesPerPoint = 700.0;
 constexpr double kShare = 0.9;
@@ -35,8 +36,9 @@ std::optional<double> kibibytes(const char* file, const std::string& name) {
 }  // namespace
 
 double MemoryNeed::bytes() const {
-    const double per_cell =
-        (linear ? kBytesPerCellLinear : kBytesPerCell) + (variances ? kBytesPerVariance : 0.0);
+    const double per_cell = (linear ? kBytesPerCellLinear : kBytesPerCell) +
+                            (variances ? kBytesPerVariance : 0.0) +
+                            (variances && multiband ? kBytesPerMultiband : 0.0);
     return per_cell * static_cast<double>(cells) +
            (linear ? kBytesPerPointLinear : kBytesPerPoint) * static_cast<double>(points);
 }

@@ -14,7 +14,8 @@ struct MemoryNeed {
     std::size_t points = 0;
     std::size_t cells = 0;
     bool variances = false;
-    bool linear = false;  ///< straight from the triangles
+    bool linear = false;     ///< straight from the triangles
+    bool multiband = false;  ///< heights and variances are written into one file, too
     [[nodiscard]] double bytes() const;
 };
 

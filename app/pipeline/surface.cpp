@@ -375,7 +375,7 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
     // Before the long work: whether kriging, with its variances, will be chosen is not known yet.
     const bool variances = !model.method || *model.method == InterpolationMethod::Kriging;
     const bool linear = model.method == InterpolationMethod::Linear && !model.cross_validate;
-    const MemoryNeed need{input.points_m.size(), geometry->size(), variances, linear};
+    const MemoryNeed need{input.points_m.size(), geometry->size(), variances, linear, request.multiband};
     report.memory_need_bytes = need.bytes();
     progress.message(
         Severity::Info,

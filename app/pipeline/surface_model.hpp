@@ -72,7 +72,7 @@ struct GroundTriangles {
 struct MethodChoice {
     InterpolationMethod method = InterpolationMethod::Linear;
     std::optional<CrossValidation> validation;
-    std::string note;  ///< why a named method could not be judged; else empty
+    std::string note;  ///< why no method could be judged; else empty
 };
 [[nodiscard]] Result<MethodChoice> chooseMethod(const SurfaceInput& input, const GroundTriangles& ground,
                                                 const SurfaceModelOptions& options, Progress& progress,

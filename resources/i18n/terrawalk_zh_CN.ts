@@ -5067,6 +5067,26 @@
             <source>On the plots</source>
             <translation>图表</translation>
         </message>
+        <message>
+            <source>Move the end of a stretch</source>
+            <translation>移动所选段的终点</translation>
+        </message>
+        <message>
+            <source>Move its start</source>
+            <translation>移动其起点</translation>
+        </message>
+        <message>
+            <source>Space</source>
+            <translation>空格</translation>
+        </message>
+        <message>
+            <source>Show a cross, then click there</source>
+            <translation>显示十字，再按则在该处单击</translation>
+        </message>
+        <message>
+            <source>Move the cross, by a pixel with Shift</source>
+            <translation>移动十字，按住 Shift 则每次一像素</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::ShowMenu</name>

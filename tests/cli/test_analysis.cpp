@@ -151,6 +151,9 @@ TEST(ProfileCommand, TellsHeightsRibbonAndMarks) {
     ASSERT_EQ(along.exit_code, 0) << along.err;
     EXPECT_NEAR(json::parse(along.out).at("rise").get<double>(), 1.0, 1e-5);
     EXPECT_EQ(terrawalk({"profile", dem}).exit_code, 2);
+    EXPECT_EQ(terrawalk({"profile", dem, "--from", "745605,2565710", "--to", "745625,2565710", "--step", "0"})
+                  .exit_code,
+              2);
     EXPECT_EQ(terrawalk({"profile", dem, "--from", "1,2", "--to", "3,4", "-o", (scratch / "n.csv").string()})
                   .exit_code,
               3);

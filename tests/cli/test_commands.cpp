@@ -124,7 +124,8 @@ TEST(Process, DemOpensInGdalWithPlaceSizeAndStatistics) {
     GDALAllRegister();
     const auto dem = GDALDatasetUniquePtr(GDALDataset::Open((scratch / "out/dem.tif").c_str()));
     ASSERT_TRUE(dem);
-    const json surface = json::parse(bytesOf(scratch / "out/report.json")).at("surface");
+    const json report = json::parse(bytesOf(scratch / "out/report.json"));
+    const json& surface = report.at("surface");
     EXPECT_EQ(dem->GetRasterXSize(), surface.at("columns"));
     EXPECT_EQ(dem->GetRasterYSize(), surface.at("rows"));
     EXPECT_STREQ(dem->GetSpatialRef()->GetAuthorityCode(nullptr), "32649");
@@ -134,6 +135,15 @@ TEST(Process, DemOpensInGdalWithPlaceSizeAndStatistics) {
     EXPECT_NEAR(lowest, surface.at("lowest_m"), 1e-6);
     EXPECT_NEAR(highest, surface.at("highest_m"), 1e-6);
     EXPECT_FALSE(fs::exists(scratch / "out/dem.tif.aux.xml"));
+    // What the check marks say goes with the file.
+    for (const json& group : report.at("accuracy")) {
+        if (group.at("stage") != "surface" || group.at("role") != "check") continue;
+        const json& height = group.at("up");
+        EXPECT_EQ(dem->GetMetadataItem("CHECK_POINTS"), std::to_string(height.at("n").get<int>()));
+        EXPECT_NEAR(std::stod(dem->GetMetadataItem("RMSE_V")), height.at("rmse_m").get<double>(), 5.1e-5);
+        return;
+    }
+    FAIL() << "no check marks";
 }
 
 TEST(Process, JsonOutcomeNamesTheProducts) {

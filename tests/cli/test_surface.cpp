@@ -12,6 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -61,6 +62,18 @@ TEST(VolumeCommand, TellsTheVolumeAndItsStandardError) {
     EXPECT_NEAR(volume.at("net").at("volume").get<double>(), 200.0, 1e-9);
     // 100 cells of a square metre: 0.1 sqrt(100) and 0.05 * 100.
     EXPECT_NEAR(volume.at("net").at("standard_error").get<double>(), std::hypot(1.0, 5.0), 1e-6);
+    // Half of the cells have no height in the other.
+    writeBytes(scratch / "half.csv", "x_m,y_m,z_m\n0,0,1\n10,0,1\n0,10,1\n");
+    const std::string half = (scratch / "half.tif").string();
+    ASSERT_EQ(terrawalk({"surface", (scratch / "half.csv").string(), "-o", half, "--method", "linear",
+                         "--no-validation", "--resolution", "1", "--extent", "0,0,10,10"})
+                  .exit_code,
+              0);
+    const json against = json::parse(terrawalk({"volume", dem, "--against", half, "--json"}).out);
+    EXPECT_EQ(against.at("cells").get<int>() + against.at("cells_in_one").get<int>(), 100);
+    EXPECT_GE(against.at("cells_in_one").get<int>(), 45);
+    EXPECT_THAT(terrawalk({"volume", dem, "--against", half}).out,
+                AllOf(HasSubstr("Cut"), HasSubstr("with a height in one DEM only")));
     EXPECT_EQ(terrawalk({"volume", dem}).exit_code, 2);
     EXPECT_EQ(terrawalk({"volume", dem, "--plane", "1", "--against", dem}).exit_code, 2);
     EXPECT_EQ(terrawalk({"volume", (scratch / "none.tif").string(), "--plane", "1"}).exit_code, 3);

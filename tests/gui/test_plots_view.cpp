@@ -340,7 +340,6 @@ void TestPlotsView::clickOnAnErrorChoosesItsMark() {
         QTest::mouseClick(exclude, Qt::LeftButton);
         QCOMPARE(asked.size(), 1);
         QCOMPARE(asked.front()[0].toString(), *mark);
-        view.grab().save(QString("marked_%1.png").arg(static_cast<int>(kind)));
     }
 }
 

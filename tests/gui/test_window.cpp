@@ -313,17 +313,22 @@ void WindowTest::areaSelectsAllPassesThroughIt() {
     drag(area_m, {});
     const auto first = session().selection().stretches();
     QVERIFY(first.size() > 1);
-    // Epochs within are selected, others are not, to a pixel.
+    // Epochs within are selected, others are not, to a pixel; a single one is no stretch.
     const double pixel_m = 1.5 / map.transform().pixels_per_m;
+    const QRectF surely = area_m.adjusted(pixel_m, pixel_m, -pixel_m, -pixel_m),
+                 perhaps = area_m.adjusted(-pixel_m, -pixel_m, pixel_m, pixel_m);
     std::size_t within = 0;
     for (const MapTrack& track : session().map()->tracks) {
-        for (std::size_t i = 0; i < track.map_m.size(); ++i) {
+        const auto at = [&](std::size_t i) {
+            return QPointF(track.map_m[i].x(), track.map_m[i].y());
+        };
+        for (std::size_t i = 1; i < track.map_m.size(); ++i) {
             const bool selected = std::any_of(first.begin(), first.end(), [&](const TrackStretch& s) {
                 return s.run.toStdString() == track.run_id && s.from_s <= track.time_s[i] &&
                        track.time_s[i] <= s.to_s;
             });
-            const QPointF at(track.map_m[i].x(), track.map_m[i].y());
-            if (selected) QVERIFY(area_m.adjusted(-pixel_m, -pixel_m, pixel_m, pixel_m).contains(at));
+            if (selected) QVERIFY(perhaps.contains(at(i)));
+            if (surely.contains(at(i)) && surely.contains(at(i - 1))) QVERIFY(selected);
             within += selected ? 1U : 0U;
         }
     }
@@ -447,8 +452,8 @@ void WindowTest::unitsAndNumbersAreChosen() {
     const Plot sigma_ft = plotOf(PlotKind::Sigma, 0, *session().survey(), session().products().get());
     QVERIFY(std::abs(sigma_ft.panels[0].series[0].y[9] * 0.3048 - sigma_m.panels[0].series[0].y[9]) < 1e-12);
     const QString read = readout(window_->map().scene(), window_->map().scene().extent_m().center());
-    QVERIFY2(read.contains(" ft") && read.contains(" m "), qPrintable(read));    // coordinates stay in metres
-    QVERIFY(height_m < session().products()->report.surface.highest_m + 1e-12);  // and so does the survey
+    QVERIFY2(read.contains(" ft") && read.contains(" m "), qPrintable(read));  // coordinates stay in metres
+    QCOMPARE(session().products()->report.surface.highest_m, height_m);        // and so does the survey
     action("unit_m").trigger();
     QTRY_VERIFY(&desktop_->window() != window_);
     window_ = &desktop_->window();
@@ -615,6 +620,22 @@ void WindowTest::allSettingsAreSearchedMarkedAndSetBack() {
     QCOMPARE(marked(), 0);
     action("undo").trigger();
     QCOMPARE(session().settings().text("fusion.robust.use"), std::string("false"));
+    // The wheel passes over what has not the focus.
+    auto* passed = dialog->findChild<QComboBox*>();
+    search->setFocus();
+    const auto turn = [](QWidget& widget) {
+        QWheelEvent wheel(QPointF(5, 5), widget.mapToGlobal(QPointF(5, 5)), {}, {0, -120}, Qt::NoButton, {},
+                          Qt::NoScrollPhase, false);
+        QApplication::sendEvent(&widget, &wheel);
+    };
+    turn(*passed);
+    QCOMPARE(session().settings().text("fusion.method"), std::string("terrawalk"));
+    auto* repeats = window_->findChild<QSpinBox*>("repeats");
+    const int repeated = repeats->value();
+    QWheelEvent up(QPointF(5, 5), repeats->mapToGlobal(QPointF(5, 5)), {}, {0, 120}, Qt::NoButton, {},
+                   Qt::NoScrollPhase, false);
+    QApplication::sendEvent(repeats, &up);
+    QCOMPARE(repeats->value(), repeated);
     // A choice has a name to read and stores its word.
     auto* method = dialog->findChild<QComboBox*>();
     QCOMPARE(method->currentText(), QString("Terrawalk, all runs"));

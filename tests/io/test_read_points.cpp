@@ -105,12 +105,16 @@ TEST(PointTable, TakesTablesAsOthersWriteThem) {
     // Never a wrong height in silence.
     for (const std::string& table :
          {std::string("x,y,z\n500000,5,2500000,25,12,5\n"), std::string("x;y;z\n500000,5;2500000,25;12,5\n"),
-          std::string("x,y,z\n500,000.5,2,500,000.25,12.5\n")}) {
+          std::string("x,y,z\n500,000.5,2,500,000.25,12.5\n"),
+          std::string("x,y,z,code\n500000,5,2500000,25,12,5,edge\n"),
+          std::string("x,y,z,code\n1,2,3,edge\n500000,5,2500000,25,12,5,edge\n")}) {
         const auto points = readText(table);
         ASSERT_FALSE(points) << table;
         EXPECT_THAT(points.error().text(), HasSubstr("a dot as decimal sign")) << table;
     }
     EXPECT_THAT(readText("1,2500000.25,500000.5,12.5,edge\n").error().text(), HasSubstr("number of a point"));
+    EXPECT_THAT(readText("500000,5,2500000,25,12,5\n").error().text(), HasSubstr("comma as decimal sign"));
+    EXPECT_TRUE(readText("1 2 3 255 255 255\n")) << "colours after whole numbers";
 }
 
 TEST(PointTable, NamesTheLineOfWhatIsWrong) {
