@@ -27,7 +27,7 @@ constexpr double kCourseChange_pm = 0.06;  // along a riser, 1 sigma: it bends g
 constexpr double kBendChange_pm = 0.008;
 constexpr double kSteeperThanTreads = 3.0;
 constexpr double kGroundDetail_m = 0.05;   // that no model of treads holds
-constexpr double kFarthestEnd = 0.5;       // of the ground, in reaches along, that a line is prolonged to
+constexpr double kMostSteps = 2.0;         // from place to place, that a line is prolonged by
 constexpr double kCourseSigma = 0.05;      // of a riser's end, beyond its last window
 constexpr double kShareOfLeastStep = 0.8;  // where a riser is followed: it may be lower here and there
 
@@ -287,8 +287,8 @@ void settleLine(const RiserSearch& search, std::vector<RiserPlace>& line) {
 /// @param way  +1 ahead, -1 back
 std::optional<RiserPlace> lastOnGround(const RiserSearch& search, const RiserPlace& from, int way,
                                        const OnGround& on_ground) {
-    constexpr int kLooks = 32;
-    const double farthest_m = kFarthestEnd * search.scale.along_m;
+    constexpr int kLooks = 64;
+    const double farthest_m = kMostSteps * search.spacing_m;
     const auto at = [&](int look) {
         const double u = way * farthest_m * look / kLooks;
         RiserPlace place = from;

@@ -293,8 +293,7 @@ bool onBothSides(const StepWindow& window, const StepShape& shape) {
         if (on_left) left += p.weight;
         if (std::abs(p.u) < 0.7 * window.scale.along_m) ++(on_left ? count_left : count_right);
     }
-    return count_left >= kLeastOnSide && count_right >= kLeastOnSide &&
-           balanced(left, totalWeight(window));
+    return count_left >= kLeastOnSide && count_right >= kLeastOnSide && balanced(left, totalWeight(window));
 }
 
 bool supported(const StepWindow& window, const StepShape& shape) {
