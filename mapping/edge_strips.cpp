@@ -20,13 +20,7 @@ struct Rung {
 };
 
 Rung rungOf(const RiserPlace& place) {
-    // An unsure place smears the expected height: as wide as a face of the same second moment.
-    constexpr double kLeastWidth_m = 0.1;
-    const double sigma_m = place.location_sigma_m;
-    const double width_m =
-        std::max(kLeastWidth_m, std::sqrt(place.width_m * place.width_m + 12.0 * sigma_m * sigma_m));
-    const Vector2d toe = place.frame.toMap(0.0, -0.5 * width_m);
-    const Vector2d top = place.frame.toMap(0.0, 0.5 * width_m);
+    const auto [toe, top] = faceOf(place);
     return {{toe.x(), toe.y(), place.height_m - 0.5 * place.step_m},
             {top.x(), top.y(), place.height_m + 0.5 * place.step_m},
             &place};
@@ -126,11 +120,12 @@ void EdgeStrips::keepClearOf(const Breakline& line) {
     }
 }
 
+bool EdgeStrips::onGround(const Vector2d& at_m) const {
+    return tin_.heightAt(at_m.x() + origin_m_.x(), at_m.y() + origin_m_.y()).has_value();
+}
+
 void EdgeStrips::add(const std::vector<RiserPlace>& line) {
     std::vector<std::vector<Rung>> pieces(1);
-    const auto onGround = [&](const Vector3d& place_m) {
-        return tin_.heightAt(place_m.x() + origin_m_.x(), place_m.y() + origin_m_.y()).has_value();
-    };
     // A line may not meet itself either, but it touches the two outlines right before.
     constexpr std::size_t kTouching = 2;
     std::vector<Outline> outlines;
@@ -143,7 +138,7 @@ void EdgeStrips::add(const std::vector<RiserPlace>& line) {
     for (const RiserPlace& place : line) {
         const Rung rung = rungOf(place);
         std::vector<Rung>& piece = pieces.back();
-        if (!place.holds || !onGround(rung.toe_m) || !onGround(rung.top_m)) {
+        if (!place.holds || !onGround(rung.toe_m.head<2>()) || !onGround(rung.top_m.head<2>())) {
             if (!piece.empty()) pieces.emplace_back();
             continue;
         }

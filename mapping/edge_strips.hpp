@@ -25,6 +25,8 @@ class EdgeStrips {
 
     /// A line in the frame of the triangulation that no edge may cross.
     void keepClearOf(const Breakline& line);
+    /// Whether the triangulation covers a place, in the risers' frame.
+    [[nodiscard]] bool onGround(const Eigen::Vector2d& at_m) const;
     void add(const std::vector<RiserPlace>& line);
     [[nodiscard]] const std::vector<TerraceEdge>& edges() const { return edges_; }
 

@@ -27,6 +27,8 @@ constexpr double kCourseChange_pm = 0.06;  // along a riser, 1 sigma: it bends g
 constexpr double kBendChange_pm = 0.008;
 constexpr double kSteeperThanTreads = 3.0;
 constexpr double kGroundDetail_m = 0.05;   // that no model of treads holds
+constexpr double kMostSteps = 2.0;         // from place to place, that a line is prolonged by
+constexpr double kCourseSigma = 0.05;      // of a riser's end, beyond its last window
 constexpr double kShareOfLeastStep = 0.8;  // where a riser is followed: it may be lower here and there
 
 std::optional<RiserPlace> placeAt(const RiserSearch& search, const StepFrame& frame, const StepShape& start,
@@ -215,9 +217,13 @@ void smoothLine(std::vector<RiserPlace>& line, double step_m) {
     }
 }
 
+double offLimit_m(const StepWindow& window) {
+    return kGroundDetail_m + 1.5 * window.scale.noise_m;
+}
+
 /// Whether the points right beside the middle of the window bear the model out, on both sides of the face.
 bool agreesNearby(const StepWindow& window, const StepFit& fit) {
-    const double limit_m = kGroundDetail_m + 1.5 * window.scale.noise_m;
+    const double limit_m = offLimit_m(window);
     std::array<std::vector<double>, 2> offs;
     for (const WindowPoint& p : middleOf(window).points) {
         offs[p.v > 0.0 ? 1 : 0].push_back(std::abs(p.z - fit.height_m(p)));
@@ -227,7 +233,44 @@ bool agreesNearby(const StepWindow& window, const StepFit& fit) {
     });
 }
 
-/// Widths from where the place is sure, heights from the points about the smoothed line.
+/// Whether the last points before the end of the ground side with the step, on both sides of the face.
+bool agreesAtEnd(const StepWindow& window, const StepFit& fit) {
+    constexpr std::size_t kLast = 3;
+    const double limit_m = std::min(offLimit_m(window), 0.35 * fit.step_m);
+    std::array<std::vector<std::pair<double, double>>, 2> offs;  // distance from the end, off the fit
+    for (const WindowPoint& p : window.points) {
+        offs[p.v > 0.0 ? 1 : 0].emplace_back(std::abs(p.u), std::abs(p.z - fit.height_m(p)));
+    }
+    return std::all_of(offs.begin(), offs.end(), [&](auto& side) {
+        if (side.size() < kLast) return false;
+        std::sort(side.begin(), side.end());
+        std::vector<double> last;
+        for (std::size_t i = 0; i < kLast; ++i) last.push_back(side[i].second);
+        return median(last) <= limit_m;
+    });
+}
+
+/// Whether the ground goes on beyond a place.
+enum class EndOfGround { Beyond, Here };
+
+/// Heights from the points about a place whose line and width are known.
+void settle(const RiserSearch& search, RiserPlace& place, EndOfGround end) {
+    place.holds = false;
+    const StepWindow window = windowAt(search.cells, place.frame, search.scale);
+    if (window.points.size() < kLeastInWindow) return;
+    const StepShape shape{0.0, 0.0, place.bend_pm, place.width_m};
+    const StepWindow robust = robustWindow(window, fitStep(window, shape));
+    const StepFit fit = fitStep(robust, shape);
+    place.height_m = fit.middle_m + window.mean_height_m;
+    place.step_m = fit.step_m;
+    place.gain = gainOf(robust, fit);
+    const bool enough = end == EndOfGround::Here ? onBothSides(robust, shape) && agreesAtEnd(window, fit)
+                                                 : supported(robust, shape);
+    place.holds = fit.step_m >= kShareOfLeastStep * search.options.least_step_m &&
+                  place.gain >= kDoubtfulGain && enough && agreesNearby(window, fit);
+}
+
+/// Widths from where the place is sure, then heights about the smoothed line.
 void settleLine(const RiserSearch& search, std::vector<RiserPlace>& line) {
     std::vector<double> widths;
     for (const RiserPlace& place : line) {
@@ -236,21 +279,44 @@ void settleLine(const RiserSearch& search, std::vector<RiserPlace>& line) {
     const double common_m = median(widths);
     for (RiserPlace& place : line) {
         if (place.doubtful) place.width_m = common_m;
-        place.holds = false;
-        const StepWindow window = windowAt(search.cells, place.frame, search.scale);
-        if (window.points.size() < kLeastInWindow) continue;
-        const StepShape shape{0.0, 0.0, place.bend_pm, place.width_m};
-        const StepWindow robust = robustWindow(window, fitStep(window, shape));
-        const StepFit fit = fitStep(robust, shape);
-        place.height_m = fit.middle_m + window.mean_height_m;
-        place.step_m = fit.step_m;
-        place.gain = gainOf(robust, fit);
-        place.holds = fit.step_m >= kShareOfLeastStep * search.options.least_step_m &&
-                      place.gain >= kDoubtfulGain && supported(robust, shape) && agreesNearby(window, fit);
+        settle(search, place, EndOfGround::Beyond);
     }
 }
 
+/// Where the riser of a place leaves the ground.
+/// @param way  +1 ahead, -1 back
+std::optional<RiserPlace> lastOnGround(const RiserSearch& search, const RiserPlace& from, int way,
+                                       const OnGround& on_ground) {
+    constexpr int kLooks = 64;
+    const double farthest_m = kMostSteps * search.spacing_m;
+    const auto at = [&](int look) {
+        const double u = way * farthest_m * look / kLooks;
+        RiserPlace place = from;
+        place.frame = {from.frame.toMap(u, from.bend_pm * u * u),
+                       from.frame.course_rad + std::atan(2.0 * from.bend_pm * u)};
+        place.location_sigma_m = std::hypot(from.location_sigma_m, kCourseSigma * u);
+        return place;
+    };
+    const auto isOn = [&](const RiserPlace& place) {
+        const auto [toe_m, top_m] = faceOf(place);
+        return on_ground(toe_m) && on_ground(top_m);
+    };
+    for (int look = 1; look <= kLooks; ++look) {
+        if (!isOn(at(look))) return look > 1 ? std::optional(at(look - 1)) : std::nullopt;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
+
+std::pair<Vector2d, Vector2d> faceOf(const RiserPlace& place) {
+    // An unsure place smears the expected height: as wide as a face of the same second moment.
+    constexpr double kLeastWidth_m = 0.1;
+    const double sigma_m = place.location_sigma_m;
+    const double width_m =
+        std::max(kLeastWidth_m, std::sqrt(place.width_m * place.width_m + 12.0 * sigma_m * sigma_m));
+    return {place.frame.toMap(0.0, -0.5 * width_m), place.frame.toMap(0.0, 0.5 * width_m)};
+}
 
 std::optional<RiserPlace> clearStepAt(const RiserSearch& search, const Vector2d& at_m) {
     const auto plane = planeAbout(search.cells, at_m, search.scale.reach_m);
@@ -310,6 +376,20 @@ std::vector<RiserPlace> riserThrough(const RiserSearch& search, const RiserPlace
     for (RiserPlace& place : line) {
         place.seen_m = place.frame.origin_m;
         place.seen_sigma_m = place.location_sigma_m;
+    }
+    return line;
+}
+
+std::vector<RiserPlace> prolonged(const RiserSearch& search, std::vector<RiserPlace> line,
+                                  const OnGround& on_ground) {
+    for (const int way : {1, -1}) {
+        while (!line.empty() && !line.back().holds) line.pop_back();
+        if (line.empty()) return line;
+        if (auto end = lastOnGround(search, line.back(), way, on_ground)) {
+            settle(search, *end, EndOfGround::Here);
+            if (end->holds) line.push_back(*end);
+        }
+        std::reverse(line.begin(), line.end());
     }
     return line;
 }

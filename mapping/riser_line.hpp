@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <map>
 #include <optional>
 #include <stop_token>
@@ -29,6 +30,9 @@ struct RiserPlace {
     bool doubtful = false;
     bool holds = true;  ///< when looked at again about the smoothed line
 };
+
+/// Toe and top of the face in plan, wider where the place is unsure.
+[[nodiscard]] std::pair<Eigen::Vector2d, Eigen::Vector2d> faceOf(const RiserPlace& place);
 
 struct RiserSearch {
     const PlanCells& cells;
@@ -60,6 +64,14 @@ class RiserPlaces {
 /// smoothed line. Places far from sure take their width from the others. May be a single place.
 [[nodiscard]] std::vector<RiserPlace> riserThrough(const RiserSearch& search, const RiserPlace& start,
                                                    const RiserPlaces& covered, const std::stop_token& stop);
+
+/// Whether a place in plan lies on the ground between the points.
+using OnGround = std::function<bool(const Eigen::Vector2d& at_m)>;
+
+/// A window must see points ahead, so a line ends a step or so before they do. From there it goes straight on
+/// to where the ground ends, if that is near and the last points on both sides bear the step out.
+[[nodiscard]] std::vector<RiserPlace> prolonged(const RiserSearch& search, std::vector<RiserPlace> line,
+                                                const OnGround& on_ground);
 
 /// How much the whole line speaks for a step, each point counted about once.
 [[nodiscard]] double evidenceOf(const std::vector<RiserPlace>& line, const RiserSearch& search);

@@ -14,7 +14,7 @@ constexpr double kNearShare = 0.35;  // of the reach along
 constexpr double kNoiseFloor_m = 0.02;
 constexpr double kOutlierSigmas = 2.5;
 constexpr double kTreadSlopeSpread = 0.3;
-constexpr double kLeastShareAhead = 0.1;  // of the weight: no edge runs on beyond the points
+constexpr double kLeastShare = 0.1;  // of the weight, ahead too: no edge runs on beyond the points
 constexpr double kGreatestBend_pm = 0.06;
 constexpr int kStepParameters = 9;
 constexpr int kSmoothParameters = 6;
@@ -25,6 +25,10 @@ double tricube(double share) {
     if (s >= 1.0) return 0.0;
     const double t = 1.0 - s * s * s;
     return t * t * t;
+}
+
+bool balanced(double part, double all) {
+    return part > kLeastShare * all && part < (1.0 - kLeastShare) * all;
 }
 
 void centreHeights(StepWindow& window) {
@@ -280,21 +284,24 @@ double gainOf(const StepWindow& window, const StepFit& fit) {
     return roughGain(smoothSquares_m2(window), fit, n) - (kStepParameters - kSmoothParameters) * std::log(n);
 }
 
-bool supported(const StepWindow& window, const StepShape& shape) {
+bool onBothSides(const StepWindow& window, const StepShape& shape) {
     constexpr int kLeastOnSide = 5;
-    double all = 0.0, left = 0.0, ahead = 0.0;
+    double left = 0.0;
     int count_left = 0, count_right = 0;
     for (const WindowPoint& p : window.points) {
         const bool on_left = shape.offset_m(p) > 0.0;
-        all += p.weight;
-        if (p.u > 0.0) ahead += p.weight;
         if (on_left) left += p.weight;
         if (std::abs(p.u) < 0.7 * window.scale.along_m) ++(on_left ? count_left : count_right);
     }
-    const auto balanced = [&](double part) {
-        return part > kLeastShareAhead * all && part < (1.0 - kLeastShareAhead) * all;
-    };
-    return count_left >= kLeastOnSide && count_right >= kLeastOnSide && balanced(left) && balanced(ahead);
+    return count_left >= kLeastOnSide && count_right >= kLeastOnSide && balanced(left, totalWeight(window));
+}
+
+bool supported(const StepWindow& window, const StepShape& shape) {
+    double ahead = 0.0;
+    for (const WindowPoint& p : window.points) {
+        if (p.u > 0.0) ahead += p.weight;
+    }
+    return onBothSides(window, shape) && balanced(ahead, totalWeight(window));
 }
 
 bool determined(const StepWindow& window) {

@@ -108,6 +108,8 @@ struct FoundStep {
 /// What a quadratic surface leaves.
 [[nodiscard]] double smoothSquares_m2(const StepWindow& window);
 
+/// Whether there are points on both sides of the face.
+[[nodiscard]] bool onBothSides(const StepWindow& window, const StepShape& shape);
 /// Whether there are points on both sides and both ways along.
 [[nodiscard]] bool supported(const StepWindow& window, const StepShape& shape);
 

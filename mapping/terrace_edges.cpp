@@ -132,6 +132,9 @@ Result<TerraceEdges> findInMetres(std::vector<Vector3d> points, const std::vecto
     RiserPlaces covered(scale.reach_m), refused(scale.reach_m);
     EdgeStrips strips(*tin, origin_m, options, scale.along_m);
     for (const Breakline& line : lines) strips.keepClearOf(line);
+    const OnGround on_ground = [&](const Vector2d& at_m) {
+        return strips.onGround(at_m);
+    };
     for (std::size_t i = 0; i < starts.size(); ++i) {
         if (stop.stop_requested()) return cancelled();
         progress.report(0.6 + 0.4 * static_cast<double>(i) / static_cast<double>(starts.size()),
@@ -144,7 +147,7 @@ Result<TerraceEdges> findInMetres(std::vector<Vector3d> points, const std::vecto
         if (line.size() < 2) continue;
         const bool accepted = evidenceOf(line, search) >= kLeastEvidence;
         for (const RiserPlace& place : line) (accepted ? covered : refused).add(place);
-        if (accepted) strips.add(line);
+        if (accepted) strips.add(prolonged(search, line, on_ground));
     }
     if (stop.stop_requested()) return cancelled();
     result.edges = strips.edges();

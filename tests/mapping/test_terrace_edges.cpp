@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -63,8 +64,8 @@ TEST(TerraceEdges, LieOnTheRisersWithTheirHeight) {
     constexpr double kStep_m = 0.8;
     const auto found = find(pointsOn(terraces(kStep_m), 2.0, 0.03, 1));
     ASSERT_TRUE(found) << found.error().message;
-    // Five risers cross the square; each loses up to a window's half at either end.
-    EXPECT_GT(lengthOf(*found), 0.8 * 5.0 * kSide_m);
+    // Five risers cross the square.
+    EXPECT_GT(lengthOf(*found), 0.93 * 5.0 * kSide_m);
     for (const TerraceEdge& edge : found->edges) {
         EXPECT_NEAR(edge.step_m, kStep_m, 0.1);
         EXPECT_LT(edge.location_sigma_m, 0.25);
@@ -75,6 +76,43 @@ TEST(TerraceEdges, LieOnTheRisersWithTheirHeight) {
             EXPECT_GT(edge.top_m[i].y(), edge.toe_m[i].y()) << "the top edge lies uphill";
             EXPECT_GT(edge.top_m[i].z(), edge.toe_m[i].z());
         }
+    }
+}
+
+/// The farthest that each edge goes to the east.
+std::vector<double> eastEnds(const TerraceEdges& found) {
+    std::vector<double> ends_m;
+    for (const TerraceEdge& edge : found.edges) {
+        double end_m = 0.0;
+        for (const Eigen::Vector3d& at_m : edge.toe_m) end_m = std::max(end_m, at_m.x());
+        ends_m.push_back(end_m);
+    }
+    return ends_m;
+}
+
+TEST(TerraceEdges, GoOnToTheEndOfTheGround) {
+    const auto found = find(pointsOn(terraces(1.0), 4.0, 0.02, 15));
+    ASSERT_TRUE(found);
+    const std::vector<double> ends_m = eastEnds(*found);
+    ASSERT_EQ(ends_m.size(), 5U);
+    // Points are half a metre apart: so far may the last one be from the side of the square.
+    for (const double end_m : ends_m) EXPECT_GT(end_m, kSide_m - 0.5);
+}
+
+TEST(TerraceEdges, EndWhereTheRiserEndsThoughTheGroundSoonDoes) {
+    // Treads and faces as far as that, and one even slope from there to the side of the square.
+    for (const double riser_end_m : {20.0, 26.0, 28.5, 29.0}) {
+        const Ground stepped = terraces(1.0);
+        const Ground ground = [&](double x, double y) {
+            const double share = std::clamp(riser_end_m + 0.5 - x, 0.0, 1.0);
+            const double slope = (y - 0.8 * std::sin(x / 6.0)) / kTread_m;
+            return share * stepped(x, y) + (1.0 - share) * slope;
+        };
+        const auto found = find(pointsOn(ground, 4.0, 0.02, 16));
+        ASSERT_TRUE(found);
+        const std::vector<double> ends_m = eastEnds(*found);
+        ASSERT_EQ(ends_m.size(), 5U);
+        for (const double end_m : ends_m) EXPECT_LT(end_m, riser_end_m + 0.5) << riser_end_m;
     }
 }
 
