@@ -27,7 +27,7 @@ constexpr double kCourseChange_pm = 0.06;  // along a riser, 1 sigma: it bends g
 constexpr double kBendChange_pm = 0.008;
 constexpr double kSteeperThanTreads = 3.0;
 constexpr double kGroundDetail_m = 0.05;   // that no model of treads holds
-constexpr double kMostSteps = 2.0;         // from place to place, that a line is prolonged by
+constexpr double kMostSteps = 1.5;         // from place to place, that a line is prolonged by
 constexpr double kCourseSigma = 0.05;      // of a riser's end, beyond its last window
 constexpr double kShareOfLeastStep = 0.8;  // where a riser is followed: it may be lower here and there
 
