@@ -66,8 +66,8 @@ Result<FusedRun> aukfTrajectory(const Survey& survey, const Run& run, const Fusi
     fused.sensors = ledger.uses();
     fused.consistency = std::move(filtered->consistency);
     if (!reference.starts_on_mark) {
-        fused.notes.limitations.push_back(
-            "the method of paper 000 starts on a known mark; this run names none");
+        fused.notes.limitations.emplace_back(
+            "the paper's method starts on a known mark; this run names none");
     }
     return fused;
 }

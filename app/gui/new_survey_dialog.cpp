@@ -134,7 +134,7 @@ NewSurveyDialog::NewSurveyDialog(QWidget* parent) : QDialog(parent) {
         const auto read = watcher_.result();
         if (read) takeDraft(*read);
         check();
-        if (!read) problem_->setText(text(read.error().text()));
+        if (!read) problem_->setText(errorWords(read.error()));
     });
     check();
 }
@@ -318,9 +318,9 @@ void NewSurveyDialog::fillBadRow(int row, const Error& error) {
     table_->setItem(row, RunColumn, file);
     Error plain = error;
     plain.file = error.file.filename();
-    auto* what = cell(text(plain.text()));
+    auto* what = cell(errorWords(plain));
     what->setForeground(errorColour());
-    what->setToolTip(text(error.text()));
+    what->setToolTip(errorWords(error));
     table_->setItem(row, LogColumn, what);
     table_->setSpan(row, LogColumn, 1, ReasonColumn - LogColumn + 1);
 }
@@ -402,7 +402,7 @@ QString NewSurveyDialog::problem() {
     for (std::size_t i = 0; i < draft_.runs.size(); ++i) {
         if (auto bad = problemOf(draft_, i)) {
             bad->file.clear();
-            return reportWords(bad->text());
+            return errorWords(*bad);
         }
     }
     if (const QString field = takeFields(); !field.isEmpty()) return field;
@@ -430,7 +430,7 @@ void NewSurveyDialog::create() {
     if (!problem().isEmpty()) return check();
     const auto written = writeDraft(draft_, replace_->isChecked());
     if (!written) {
-        problem_->setText(text(written.error().text()));
+        problem_->setText(errorWords(written.error()));
         problem_->setStyleSheet("color: " + errorColour().name());
         return;
     }

@@ -19,6 +19,7 @@
 
 #include "app/gui/background.hpp"
 #include "app/gui/recent_surveys.hpp"
+#include "app/gui/report_words.hpp"
 #include "app/gui/theme.hpp"
 
 namespace terrawalk::gui {
@@ -102,7 +103,7 @@ void ReportView::make() {
     watcher_.setFuture(
         QtConcurrent::run(backgroundPool(), [survey = survey_, products = products_, file]() -> Made {
             if (const auto written = writeReport(*survey, *products, file.toStdString()); !written) {
-                return {{}, QString::fromStdString(written.error().text()), {}};
+                return {{}, errorWords(written.error()), {}};
             }
             const auto document = opened(file);
             if (!document) return {{}, tr("The report cannot be drawn."), {}};

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "app/gui/error_words.hpp"
+
 namespace terrawalk::gui {
 
 namespace {
@@ -268,20 +270,7 @@ constexpr const char* kSentences[] = {
                       "zero point: mean GNSS position of the ground where %1 of %2 walks start, %3 m apart "
                       "at most; say where it is if you know it better"),
     QT_TRANSLATE_NOOP("Report", "%1 is passed over: %2"),
-    QT_TRANSLATE_NOOP("Report",
-                      "the fixed-point run %1 has no target mark; name the mark, or make it an area walk"),
-    QT_TRANSLATE_NOOP("Report",
-                      "the fixed-point run %1 has no start mark; name the mark, or make it an area walk"),
-    QT_TRANSLATE_NOOP("Report", "two runs are named %1; give each run its own name"),
-    QT_TRANSLATE_NOOP(
-        "Report",
-        "%1 cannot be the name of a run; use letters, digits, '-', '_' and '.', the first one no '.'"),
-    QT_TRANSLATE_NOOP(
-        "Report",
-        "run %1 names the mark %2, which is not known; correct the name, or give the table with that mark"),
 };
-
-constexpr qsizetype kShortest = 32;
 
 /// A sentence with places for numbers and names.
 struct Pattern {
@@ -295,7 +284,8 @@ Pattern patternOf(const char* source) {
     const qsizetype letters = expression.size();
     static const QRegularExpression place("\\\\%\\d");
     // "30 check marks": only a number makes it one.
-    const bool count = QString::fromUtf8(source).startsWith("%1 ") && letters < kShortest;
+    static const QRegularExpression counted("^%1 ((check|control) )?(mark|comparison)s?$");
+    const bool count = counted.match(QString::fromUtf8(source)).hasMatch();
     expression.replace(place, count ? "(\\d[\\d.]*)" : "(.+?)");
     return {QRegularExpression(QRegularExpression::anchoredPattern(expression)), source, letters};
 }
@@ -305,6 +295,7 @@ const std::vector<Pattern>& patterns() {
     static const std::vector<Pattern> all = [] {
         std::vector<Pattern> made;
         for (const char* source : kSentences) made.push_back(patternOf(source));
+        for (const char* source : kErrorSentences) made.push_back(patternOf(source));
         std::stable_sort(made.begin(), made.end(),
                          [](const Pattern& a, const Pattern& b) { return a.letters > b.letters; });
         return made;
@@ -348,8 +339,20 @@ QString reportWords(std::string_view words) {
     const QString text = QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size()));
     // English is what the core says already.
     static_cast<void>(kWords);
+    static_cast<void>(kErrorWords);
     if (QCoreApplication::translate("Report", "done") == QLatin1String("done")) return text;
     return translated(text, 0);
+}
+
+QString errorWords(const Error& error) {
+    QString words = reportWords(printable(error.message));
+    if (!error.cure.empty())
+        words =
+            QCoreApplication::translate("Report", "%1; %2").arg(words, reportWords(printable(error.cure)));
+    if (error.file.empty()) return words;
+    QString where = QString::fromStdString(printable(error.file.string()));
+    if (error.line > 0) where += QString(":%1").arg(error.line);
+    return QCoreApplication::translate("Report", "%1: %2").arg(where, words);
 }
 
 }  // namespace terrawalk::gui

@@ -86,7 +86,7 @@ void SurveySession::fail(const Error& error) {
     if (error.kind == ErrorKind::Cancelled) {
         Q_EMIT told(MessageKind::Info, tr("Cancelled; what was there before is still there."));
     } else {
-        Q_EMIT told(MessageKind::Error, text(error.text()));
+        Q_EMIT told(MessageKind::Error, errorWords(error));
     }
 }
 
@@ -413,7 +413,7 @@ void SurveySession::keepRun(const FinishedRun& run) {
     }
     QDir().mkpath(text(runsFile().parent_path().string()));
     if (const auto written = writeRunHistory(kept, runsFile()); !written)
-        Q_EMIT told(MessageKind::Warning, text(written.error().text()));
+        Q_EMIT told(MessageKind::Warning, errorWords(written.error()));
 }
 
 fs::path SurveySession::runsFile() const {

@@ -1290,26 +1290,6 @@
             <translation>略过 %1：%2</translation>
         </message>
         <message>
-            <source>the fixed-point run %1 has no target mark; name the mark, or make it an area walk</source>
-            <translation>定点测线 %1 没有终点标志；请指定标志点，或改为面积测线</translation>
-        </message>
-        <message>
-            <source>the fixed-point run %1 has no start mark; name the mark, or make it an area walk</source>
-            <translation>定点测线 %1 没有起点标志；请指定标志点，或改为面积测线</translation>
-        </message>
-        <message>
-            <source>two runs are named %1; give each run its own name</source>
-            <translation>有两个测线都叫 %1；请各起一个名字</translation>
-        </message>
-        <message>
-            <source>%1 cannot be the name of a run; use letters, digits, '-', '_' and '.', the first one no '.'</source>
-            <translation>%1 不能作为测线名；请用字母、数字、“-”、“_”和“.”，且不以“.”开头</translation>
-        </message>
-        <message>
-            <source>run %1 names the mark %2, which is not known; correct the name, or give the table with that mark</source>
-            <translation>测线 %1 的标志点 %2 未知；请更正名称，或提供含该点的表</translation>
-        </message>
-        <message>
             <source>GNSS position</source>
             <translation>GNSS 位置</translation>
         </message>
@@ -1360,6 +1340,1806 @@
         <message>
             <source>GNSS height</source>
             <translation>GNSS 高程</translation>
+        </message>
+        <message>
+            <source>no such file</source>
+            <translation>没有这个文件</translation>
+        </message>
+        <message>
+            <source>the file may not be read</source>
+            <translation>没有读取该文件的权限</translation>
+        </message>
+        <message>
+            <source>give this user the right to read it</source>
+            <translation>请给当前用户读取权限</translation>
+        </message>
+        <message>
+            <source>cannot write: this is a folder</source>
+            <translation>无法写入：这是一个文件夹</translation>
+        </message>
+        <message>
+            <source>cannot write: a folder of that name is in the way</source>
+            <translation>无法写入：已有同名的文件夹</translation>
+        </message>
+        <message>
+            <source>this is a folder</source>
+            <translation>这是一个文件夹</translation>
+        </message>
+        <message>
+            <source>name a file in it</source>
+            <translation>请指定其中的一个文件</translation>
+        </message>
+        <message>
+            <source>this is no regular file</source>
+            <translation>这不是普通文件</translation>
+        </message>
+        <message>
+            <source>copy the data to a file</source>
+            <translation>请把数据复制到普通文件中</translation>
+        </message>
+        <message>
+            <source>check that this is the right file</source>
+            <translation>请确认文件是否正确</translation>
+        </message>
+        <message>
+            <source>the file grows while it is read</source>
+            <translation>读取时文件还在增长</translation>
+        </message>
+        <message>
+            <source>try again</source>
+            <translation>请再试一次</translation>
+        </message>
+        <message>
+            <source>the text is UTF-16</source>
+            <translation>文本编码是 UTF-16</translation>
+        </message>
+        <message>
+            <source>save it as UTF-8</source>
+            <translation>请另存为 UTF-8</translation>
+        </message>
+        <message>
+            <source>NUL byte: this is no text, or the logger lost power while it wrote</source>
+            <translation>有空字节：这不是文本，或者记录时断了电</translation>
+        </message>
+        <message>
+            <source>end the file with the last whole line before it</source>
+            <translation>请让文件止于它之前最后一个完整的行</translation>
+        </message>
+        <message>
+            <source>the file is empty</source>
+            <translation>文件是空的</translation>
+        </message>
+        <message>
+            <source>the file cannot be opened</source>
+            <translation>无法打开该文件</translation>
+        </message>
+        <message>
+            <source>No space left on device</source>
+            <translation>设备上没有剩余空间</translation>
+        </message>
+        <message>
+            <source>Permission denied</source>
+            <translation>没有权限</translation>
+        </message>
+        <message>
+            <source>No such file or directory</source>
+            <translation>没有这个文件或文件夹</translation>
+        </message>
+        <message>
+            <source>Read-only file system</source>
+            <translation>文件系统是只读的</translation>
+        </message>
+        <message>
+            <source>Input/output error</source>
+            <translation>读写出错</translation>
+        </message>
+        <message>
+            <source>Is a directory</source>
+            <translation>这是一个文件夹</translation>
+        </message>
+        <message>
+            <source>Not a directory</source>
+            <translation>这不是文件夹</translation>
+        </message>
+        <message>
+            <source>File name too long</source>
+            <translation>文件名太长</translation>
+        </message>
+        <message>
+            <source>Too many open files</source>
+            <translation>打开的文件太多</translation>
+        </message>
+        <message>
+            <source>Disk quota exceeded</source>
+            <translation>超出了磁盘配额</translation>
+        </message>
+        <message>
+            <source>Device or resource busy</source>
+            <translation>设备正忙</translation>
+        </message>
+        <message>
+            <source>Success</source>
+            <translation>成功</translation>
+        </message>
+        <message>
+            <source>no header row</source>
+            <translation>没有标题行</translation>
+        </message>
+        <message>
+            <source>no header row before the data</source>
+            <translation>数据之前没有标题行</translation>
+        </message>
+        <message>
+            <source>the header row has no column time_s</source>
+            <translation>标题行中没有 time_s 列</translation>
+        </message>
+        <message>
+            <source>the first row after the # lines must name the columns, time_s among them</source>
+            <translation># 行之后的第一行必须写列名，其中要有 time_s</translation>
+        </message>
+        <message>
+            <source>no data rows after the header</source>
+            <translation>标题行之后没有数据</translation>
+        </message>
+        <message>
+            <source>the only row is cut off: it has no line end</source>
+            <translation>唯一的一行不完整：没有换行符</translation>
+        </message>
+        <message>
+            <source>end the last row with a line end if it is whole</source>
+            <translation>如果最后一行是完整的，请补上换行符</translation>
+        </message>
+        <message>
+            <source>check the logger's clock, and whether two logs were joined</source>
+            <translation>请检查记录器的时钟，以及是否把两份日志拼在了一起</translation>
+        </message>
+        <message>
+            <source>the line is no UTF-8 text</source>
+            <translation>该行不是 UTF-8 文本</translation>
+        </message>
+        <message>
+            <source>save the file as UTF-8 text</source>
+            <translation>请把文件另存为 UTF-8 文本</translation>
+        </message>
+        <message>
+            <source>keep one of the two lines</source>
+            <translation>请只保留其中一行</translation>
+        </message>
+        <message>
+            <source>write it like 2024-05-17T08:30:00Z</source>
+            <translation>请写成 2024-05-17T08:30:00Z 的样子</translation>
+        </message>
+        <message>
+            <source>give x y z in metres, parted by blanks</source>
+            <translation>请以米为单位写 x y z，用空格分开</translation>
+        </message>
+        <message>
+            <source>give metres</source>
+            <translation>请用米为单位</translation>
+        </message>
+        <message>
+            <source>a quotation mark is not closed</source>
+            <translation>引号没有闭合</translation>
+        </message>
+        <message>
+            <source>each column needs its own name</source>
+            <translation>每一列都要有自己的列名</translation>
+        </message>
+        <message>
+            <source>give a number with a decimal dot, or leave the field empty where the sensor gave no value</source>
+            <translation>请用小数点写数；传感器没有给出数值时请留空</translation>
+        </message>
+        <message>
+            <source>the decimal sign is a dot, and an empty field keeps its comma</source>
+            <translation>小数点要用“.”，空字段也要保留逗号</translation>
+        </message>
+        <message>
+            <source>the decimal sign is a dot, and fields are parted by commas</source>
+            <translation>小数点要用“.”，字段之间用逗号分开</translation>
+        </message>
+        <message>
+            <source>the last row has no line end; it is kept, since its last number is whole</source>
+            <translation>最后一行没有换行符；因末尾的数完整，仍然保留</translation>
+        </message>
+        <message>
+            <source>the time is missing</source>
+            <translation>缺少时间</translation>
+        </message>
+        <message>
+            <source>every row needs its time</source>
+            <translation>每一行都要有时间</translation>
+        </message>
+        <message>
+            <source>this is no time since the log's start</source>
+            <translation>这不是从日志开始算起的时间</translation>
+        </message>
+        <message>
+            <source>count time_s in seconds from the start of the log; start_utc ties it to UTC</source>
+            <translation>time_s 要从日志开始以秒计；start_utc 把它与 UTC 联系起来</translation>
+        </message>
+        <message>
+            <source>a latitude lies between -90 and 90 degrees</source>
+            <translation>纬度在 -90 到 90 度之间</translation>
+        </message>
+        <message>
+            <source>a longitude lies between -180 and 180 degrees</source>
+            <translation>经度在 -180 到 180 度之间</translation>
+        </message>
+        <message>
+            <source>a fix is a whole number from 0 to 9</source>
+            <translation>定位状态是 0 到 9 的整数</translation>
+        </message>
+        <message>
+            <source>a height on Earth is below 100 km</source>
+            <translation>地球上的高程小于 100 km</translation>
+        </message>
+        <message>
+            <source>an accuracy lies between 0 and 1000 km</source>
+            <translation>精度在 0 到 1000 km 之间</translation>
+        </message>
+        <message>
+            <source>no array moves at 1000 m/s</source>
+            <translation>没有哪个设备会以 1000 m/s 移动</translation>
+        </message>
+        <message>
+            <source>no air has 10 bar</source>
+            <translation>大气压不会有 10 bar</translation>
+        </message>
+        <message>
+            <source>no field has that temperature</source>
+            <translation>野外不会有这样的温度</translation>
+        </message>
+        <message>
+            <source>an angle is a few turns at most</source>
+            <translation>角度最多是几圈</translation>
+        </message>
+        <message>
+            <source>no hand bears 1000 g</source>
+            <translation>手持设备承受不了 1000 g</translation>
+        </message>
+        <message>
+            <source>no hand turns that fast</source>
+            <translation>手不会转得那么快</translation>
+        </message>
+        <message>
+            <source>no range finder sees 1000 km</source>
+            <translation>没有哪个测距仪能测 1000 km</translation>
+        </message>
+        <message>
+            <source>no range finder counts that far</source>
+            <translation>没有哪个测距仪的强度有这么大</translation>
+        </message>
+        <message>
+            <source>a flow quality lies between 0 and 255</source>
+            <translation>光流质量在 0 到 255 之间</translation>
+        </message>
+        <message>
+            <source>correct the value, or leave the field empty</source>
+            <translation>请改正该值，或让字段留空</translation>
+        </message>
+        <message>
+            <source>part the log there, or correct the time</source>
+            <translation>请在那里把日志分开，或改正时间</translation>
+        </message>
+        <message>
+            <source>only one of the columns lat_deg and lon_deg; the log has no positions</source>
+            <translation>lat_deg 和 lon_deg 只有其中一列；日志没有位置</translation>
+        </message>
+        <message>
+            <source>no marks</source>
+            <translation>没有标志点</translation>
+        </message>
+        <message>
+            <source>add the marks, or leave the file out of the project</source>
+            <translation>请加入标志点，或从项目中去掉该文件</translation>
+        </message>
+        <message>
+            <source>the mark has no name</source>
+            <translation>标志点没有点名</translation>
+        </message>
+        <message>
+            <source>keep one of the two rows</source>
+            <translation>请只保留其中一行</translation>
+        </message>
+        <message>
+            <source>ZERO is the zero point: (0, 0, 0) with role control</source>
+            <translation>ZERO 是零点：坐标 (0, 0, 0)，作用为 control</translation>
+        </message>
+        <message>
+            <source>give the mark another name</source>
+            <translation>请给标志点另取名字</translation>
+        </message>
+        <message>
+            <source>the row of ZERO is not used; it is always (0, 0, 0)</source>
+            <translation>ZERO 行不会使用；它总是 (0, 0, 0)</translation>
+        </message>
+        <message>
+            <source>give metres with a decimal dot</source>
+            <translation>请以米为单位，用小数点写数</translation>
+        </message>
+        <message>
+            <source>give metres from the zero point in the local frame, not map coordinates</source>
+            <translation>请写局部坐标系中相对零点的米数，不要写地图坐标</translation>
+        </message>
+        <message>
+            <source>write control or check</source>
+            <translation>请写 control 或 check</translation>
+        </message>
+        <message>
+            <source>the JSON is nested too deeply</source>
+            <translation>JSON 嵌套太深</translation>
+        </message>
+        <message>
+            <source>the JSON holds more than a million values</source>
+            <translation>JSON 中的值超过一百万个</translation>
+        </message>
+        <message>
+            <source>the project</source>
+            <translation>项目</translation>
+        </message>
+        <message>
+            <source>true or false</source>
+            <translation>true 或 false</translation>
+        </message>
+        <message>
+            <source>a number</source>
+            <translation>数</translation>
+        </message>
+        <message>
+            <source>a text</source>
+            <translation>文本</translation>
+        </message>
+        <message>
+            <source>a list</source>
+            <translation>列表</translation>
+        </message>
+        <message>
+            <source>an object</source>
+            <translation>对象</translation>
+        </message>
+        <message>
+            <source>null</source>
+            <translation>null</translation>
+        </message>
+        <message>
+            <source>give a text, or leave the key out</source>
+            <translation>请写文本，或去掉这个键</translation>
+        </message>
+        <message>
+            <source>write "fixed-point" or "area"</source>
+            <translation>请写 "fixed-point" 或 "area"</translation>
+        </message>
+        <message>
+            <source>use at most 64 letters, digits, '-', '_' and '.', the first one no '.'</source>
+            <translation>请用最多 64 个字母、数字、“-”“_”“.”，第一个不能是“.”</translation>
+        </message>
+        <message>
+            <source>a fixed-point run starts on a known mark</source>
+            <translation>定点测线从已知标志点开始</translation>
+        </message>
+        <message>
+            <source>a fixed-point run ends on a known mark</source>
+            <translation>定点测线在已知标志点结束</translation>
+        </message>
+        <message>
+            <source>give each run its own id</source>
+            <translation>请给每条测线各自的编号</translation>
+        </message>
+        <message>
+            <source>name at least one run with its log</source>
+            <translation>请至少写一条测线及其日志</translation>
+        </message>
+        <message>
+            <source>name a file in the project's folder, relative to it</source>
+            <translation>请写项目文件夹内的文件，用相对路径</translation>
+        </message>
+        <message>
+            <source>name the file with the marks under "control"</source>
+            <translation>请在 "control" 下写控制点文件</translation>
+        </message>
+        <message>
+            <source>add it to the control file, or correct the name</source>
+            <translation>请把它加入控制点文件，或改正名字</translation>
+        </message>
+        <message>
+            <source>times count like time_s of the log</source>
+            <translation>时间与日志的 time_s 一样计</translation>
+        </message>
+        <message>
+            <source>the survey has no name</source>
+            <translation>测量没有名称</translation>
+        </message>
+        <message>
+            <source>no log was given</source>
+            <translation>没有给出日志</translation>
+        </message>
+        <message>
+            <source>no file was given</source>
+            <translation>没有给出文件</translation>
+        </message>
+        <message>
+            <source>name the logs of the array, or their folder</source>
+            <translation>请指定设备的日志，或日志所在的文件夹</translation>
+        </message>
+        <message>
+            <source>name one table of marks</source>
+            <translation>请只指定一张标志点表</translation>
+        </message>
+        <message>
+            <source>no log has positions, so the zero point is not known</source>
+            <translation>没有日志含位置，零点未知</translation>
+        </message>
+        <message>
+            <source>say where it is: latitude, longitude and ellipsoidal height</source>
+            <translation>请给出零点：纬度、经度和大地高</translation>
+        </message>
+        <message>
+            <source>write survey.json into a folder above it, or put the file beside it</source>
+            <translation>请把 survey.json 写到它的上级文件夹，或把该文件放到旁边</translation>
+        </message>
+        <message>
+            <source>there is a survey already</source>
+            <translation>那里已经有一个测量</translation>
+        </message>
+        <message>
+            <source>name another file, or say that it may be replaced</source>
+            <translation>请另取文件名，或允许替换</translation>
+        </message>
+        <message>
+            <source>hard, soft, boundary or hole</source>
+            <translation>应为 hard、soft、boundary 或 hole</translation>
+        </message>
+        <message>
+            <source>give .gpkg, .shp, .geojson, .dxf or another vector format</source>
+            <translation>请用 .gpkg、.shp、.geojson、.dxf 或其他矢量格式</translation>
+        </message>
+        <message>
+            <source>the layers have different CRS</source>
+            <translation>各图层的坐标系不同</translation>
+        </message>
+        <message>
+            <source>bring them to one</source>
+            <translation>请统一坐标系</translation>
+        </message>
+        <message>
+            <source>there is no line or polygon in the file</source>
+            <translation>文件中没有线或面</translation>
+        </message>
+        <message>
+            <source>the raster has no place</source>
+            <translation>栅格没有地理位置</translation>
+        </message>
+        <message>
+            <source>the raster is not north-up</source>
+            <translation>栅格不是北向上</translation>
+        </message>
+        <message>
+            <source>warp it, e.g. with gdalwarp</source>
+            <translation>请先重投影，例如用 gdalwarp</translation>
+        </message>
+        <message>
+            <source>warp it, e.g. with gdalwarp -tr</source>
+            <translation>请先重采样，例如用 gdalwarp -tr</translation>
+        </message>
+        <message>
+            <source>cut out the part that is needed, e.g. with gdal_translate -projwin</source>
+            <translation>请裁出需要的部分，例如用 gdal_translate -projwin</translation>
+        </message>
+        <message>
+            <source>give an authority code such as EPSG:32649</source>
+            <translation>请写 EPSG:32649 这样的代码</translation>
+        </message>
+        <message>
+            <source>write a projected CRS in metres, for example "EPSG:32649", or leave "crs" out</source>
+            <translation>请写以米为单位的投影坐标系，例如 "EPSG:32649"，或去掉 "crs"</translation>
+        </message>
+        <message>
+            <source>write "local" (metres above the zero point) or "ellipsoid" (height above WGS 84)</source>
+            <translation>请写 "local"（相对零点的米数）或 "ellipsoid"（WGS 84 大地高）</translation>
+        </message>
+        <message>
+            <source>check zero_point in the project file</source>
+            <translation>请检查项目文件中的 zero_point</translation>
+        </message>
+        <message>
+            <source>walk farther</source>
+            <translation>请多走一些</translation>
+        </message>
+        <message>
+            <source>set surface.fixed_point_runs=true</source>
+            <translation>请设 surface.fixed_point_runs=true</translation>
+        </message>
+        <message>
+            <source>look at the log with `terrawalk inspect`</source>
+            <translation>请用 `terrawalk inspect` 查看日志</translation>
+        </message>
+        <message>
+            <source>choose a smaller surface.cell_m</source>
+            <translation>请把 surface.cell_m 设得小一些</translation>
+        </message>
+        <message>
+            <source>give a number</source>
+            <translation>请写一个数</translation>
+        </message>
+        <message>
+            <source>give a whole number</source>
+            <translation>请写一个整数</translation>
+        </message>
+        <message>
+            <source>a list or an object</source>
+            <translation>列表或对象</translation>
+        </message>
+        <message>
+            <source>the section "tuning" is not as `terrawalk tune` writes it</source>
+            <translation>"tuning" 部分不是 `terrawalk tune` 写的样子</translation>
+        </message>
+        <message>
+            <source>leave it as it was, or out</source>
+            <translation>请保持原样，或去掉</translation>
+        </message>
+        <message>
+            <source>format must be "terrawalk-config 1"</source>
+            <translation>format 必须是 "terrawalk-config 1"</translation>
+        </message>
+        <message>
+            <source>cannot be read</source>
+            <translation>无法读取</translation>
+        </message>
+        <message>
+            <source>check the path</source>
+            <translation>请检查路径</translation>
+        </message>
+        <message>
+            <source>is not valid JSON</source>
+            <translation>不是有效的 JSON</translation>
+        </message>
+        <message>
+            <source>holds a number that is too large</source>
+            <translation>其中有过大的数</translation>
+        </message>
+        <message>
+            <source>must hold one JSON object</source>
+            <translation>必须是一个 JSON 对象</translation>
+        </message>
+        <message>
+            <source>this is no list of earlier runs</source>
+            <translation>这不是以往运行的列表</translation>
+        </message>
+        <message>
+            <source>remove it: a new one is made</source>
+            <translation>请删除它：程序会新建一个</translation>
+        </message>
+        <message>
+            <source>no such format</source>
+            <translation>没有这种格式</translation>
+        </message>
+        <message>
+            <source>nothing to export</source>
+            <translation>没有要导出的内容</translation>
+        </message>
+        <message>
+            <source>choose heights of the same ground, in the same map frame</source>
+            <translation>请选同一地面、同一地图坐标系的高程</translation>
+        </message>
+        <message>
+            <source>warp it to the survey's map frame, e.g. with gdalwarp -t_srs</source>
+            <translation>请重投影到测量的坐标系，例如用 gdalwarp -t_srs</translation>
+        </message>
+        <message>
+            <source>choose another folder for the output</source>
+            <translation>请另选输出文件夹</translation>
+        </message>
+        <message>
+            <source>the output folder has no name</source>
+            <translation>输出文件夹没有名字</translation>
+        </message>
+        <message>
+            <source>choose a folder inside it</source>
+            <translation>请选其中的一个文件夹</translation>
+        </message>
+        <message>
+            <source>thin the points, or use a machine with more memory</source>
+            <translation>请抽稀点，或换内存更大的机器</translation>
+        </message>
+        <message>
+            <source>thin the points</source>
+            <translation>请抽稀点</translation>
+        </message>
+        <message>
+            <source>ask for a coarser resolution</source>
+            <translation>请用更粗的分辨率</translation>
+        </message>
+        <message>
+            <source>this is no JSON</source>
+            <translation>这不是 JSON</translation>
+        </message>
+        <message>
+            <source>the search has no points</source>
+            <translation>搜索没有记录点</translation>
+        </message>
+        <message>
+            <source>it tells of no search for parameters</source>
+            <translation>其中没有参数搜索的记录</translation>
+        </message>
+        <message>
+            <source>choose the CSV of an experiment that repeats searches, such as fig10</source>
+            <translation>请选重复搜索的实验（如 fig10）的 CSV</translation>
+        </message>
+        <message>
+            <source>the survey stands on fewer than two control marks beside ZERO</source>
+            <translation>除 ZERO 外，停留过的控制点不足两个</translation>
+        </message>
+        <message>
+            <source>stand on two or more, in stops or at the ends of fixed-point runs</source>
+            <translation>请在两个以上的控制点上停留，或以定点测线到达</translation>
+        </message>
+        <message>
+            <source>the survey has no fixed-point run between control marks</source>
+            <translation>测量中没有控制点之间的定点测线</translation>
+        </message>
+        <message>
+            <source>tuning needs runs of kind fixed_point whose target is a control mark</source>
+            <translation>调参需要以控制点为终点的定点测线</translation>
+        </message>
+        <message>
+            <source>raw sensors have no parameters to tune</source>
+            <translation>原始传感器没有可调的参数</translation>
+        </message>
+        <message>
+            <source>choose another --method</source>
+            <translation>请另选方法</translation>
+        </message>
+        <message>
+            <source>only method aukf has alpha, beta and kappa to tune</source>
+            <translation>只有 aukf 方法有 alpha、beta、kappa 可调</translation>
+        </message>
+        <message>
+            <source>continue it with --resume, or remove the file</source>
+            <translation>请用 --resume 继续，或删除该文件</translation>
+        </message>
+        <message>
+            <source>try other process noise, or --method ukf</source>
+            <translation>请改用别的过程噪声，或用 ukf 方法</translation>
+        </message>
+        <message>
+            <source>a log needs GNSS positions or velocities, or optical flow with heading</source>
+            <translation>日志要有 GNSS 位置或速度，或带航向的光流</translation>
+        </message>
+        <message>
+            <source>the adjustment of all runs has no solution</source>
+            <translation>全部测线的联合平差无解</translation>
+        </message>
+        <message>
+            <source>use --method ukf, or leave out the run that has no position</source>
+            <translation>请用 ukf 方法，或去掉没有位置的测线</translation>
+        </message>
+        <message>
+            <source>all pressures are alike, a scale cannot be fitted</source>
+            <translation>所有气压相同，无法拟合比例</translation>
+        </message>
+        <message>
+            <source>stand on marks of different height</source>
+            <translation>请在高程不同的点上停留</translation>
+        </message>
+        <message>
+            <source>the search has no limit</source>
+            <translation>搜索没有上限</translation>
+        </message>
+        <message>
+            <source>give the common vertex one height, or leave a gap between the lines</source>
+            <translation>请给公共顶点同一高程，或让两线之间留空</translation>
+        </message>
+        <message>
+            <source>give both a vertex there, of one height, or end one of them before</source>
+            <translation>请在那里给两线同一高程的顶点，或让其中一条提前结束</translation>
+        </message>
+        <message>
+            <source>no triangle is left within the boundary, outside the holes and below the longest edge</source>
+            <translation>边界之内、孔洞之外、最长边以下没有剩下三角形</translation>
+        </message>
+        <message>
+            <source>check the rings, or allow a longer edge</source>
+            <translation>请检查边界和孔洞，或放宽最长边</translation>
+        </message>
+        <message>
+            <source>there is no point to make a surface of</source>
+            <translation>没有点可构成表面</translation>
+        </message>
+        <message>
+            <source>use linear or clough-tocher</source>
+            <translation>请用 linear 或 clough-tocher</translation>
+        </message>
+        <message>
+            <source>bring both to one CRS</source>
+            <translation>请统一两者的坐标系</translation>
+        </message>
+        <message>
+            <source>the interval between contours must be above zero</source>
+            <translation>等高距必须大于零</translation>
+        </message>
+        <message>
+            <source>contours can be smoothed over 0 to 100 cells</source>
+            <translation>等高线可在 0 到 100 个像元上平滑</translation>
+        </message>
+        <message>
+            <source>choose a larger interval</source>
+            <translation>请加大等高距</translation>
+        </message>
+        <message>
+            <source>not enough memory for so many contours</source>
+            <translation>内存不足以容纳这么多等高线</translation>
+        </message>
+        <message>
+            <source>choose a larger interval or larger cells</source>
+            <translation>请加大等高距或像元</translation>
+        </message>
+        <message>
+            <source>no point lies within the hull of the others, so that no method can be judged</source>
+            <translation>没有点落在其余点的范围之内，无法评判方法</translation>
+        </message>
+        <message>
+            <source>choose a method by name</source>
+            <translation>请按名称指定方法</translation>
+        </message>
+        <message>
+            <source>walk several lines beside one another, and look at why ground points were rejected</source>
+            <translation>请并排多走几条线，并查看地面点被剔除的原因</translation>
+        </message>
+        <message>
+            <source>the longest edge of the surface's triangles may not be below zero</source>
+            <translation>表面三角形的最长边不能小于零</translation>
+        </message>
+        <message>
+            <source>give metres, or 0 to take it from the points</source>
+            <translation>请以米为单位，0 表示由点推定</translation>
+        </message>
+        <message>
+            <source>allow a longer edge, or 0 to take the limit from the points</source>
+            <translation>请放宽最长边，或写 0 由点推定</translation>
+        </message>
+        <message>
+            <source>ask for a resolution of a millimetre or more</source>
+            <translation>请用一毫米或更粗的分辨率</translation>
+        </message>
+        <message>
+            <source>there is no surface to make a grid of</source>
+            <translation>没有可格网化的表面</translation>
+        </message>
+        <message>
+            <source>a height needs at least one neighbour</source>
+            <translation>求高程至少要一个相邻点</translation>
+        </message>
+        <message>
+            <source>the power of the inverse distance must be above zero</source>
+            <translation>反距离的幂必须大于零</translation>
+        </message>
+        <message>
+            <source>there is no point to interpolate between</source>
+            <translation>没有可内插的点</translation>
+        </message>
+        <message>
+            <source>choose a greater spacing of its lattice, or another method</source>
+            <translation>请加大格距，或换一种方法</translation>
+        </message>
+        <message>
+            <source>too few points to learn how far interpolation is off</source>
+            <translation>点太少，无法估计内插误差</translation>
+        </message>
+        <message>
+            <source>too few points lie between others to learn how far interpolation is off</source>
+            <translation>位于其他点之间的点太少，无法估计内插误差</translation>
+        </message>
+        <message>
+            <source>walk farther, or keep more points</source>
+            <translation>请多走一些，或多保留些点</translation>
+        </message>
+        <message>
+            <source>not enough memory for the uncertainty of the grid</source>
+            <translation>内存不足以计算格网的不确定度</translation>
+        </message>
+        <message>
+            <source>take the times from its log</source>
+            <translation>请按其日志填写时间</translation>
+        </message>
+        <message>
+            <source>the zero mark is the survey's origin and cannot be left out</source>
+            <translation>零点是测量的原点，不能去掉</translation>
+        </message>
+        <message>
+            <source>edits leave no run</source>
+            <translation>编辑后没有剩下测线</translation>
+        </message>
+        <message>
+            <source>take one of them back</source>
+            <translation>请撤销其中一项</translation>
+        </message>
+        <message>
+            <source>choose larger voxels</source>
+            <translation>请加大体素</translation>
+        </message>
+        <message>
+            <source>the octree cannot be written</source>
+            <translation>无法写入八叉树</translation>
+        </message>
+        <message>
+            <source>the DEM has no cells</source>
+            <translation>DEM 没有像元</translation>
+        </message>
+        <message>
+            <source>no cell of the DEM has a height</source>
+            <translation>DEM 的像元都没有高程</translation>
+        </message>
+        <message>
+            <source>walk closer lines or choose larger cells</source>
+            <translation>请加密测线，或加大像元</translation>
+        </message>
+        <message>
+            <source>there is no ground point to write</source>
+            <translation>没有地面点可写</translation>
+        </message>
+        <message>
+            <source>the points reach farther than LAS can hold in steps of 0.1 mm</source>
+            <translation>点的范围超出 LAS 以 0.1 mm 为步长能存储的范围</translation>
+        </message>
+        <message>
+            <source>the surface has no triangle</source>
+            <translation>表面没有三角形</translation>
+        </message>
+        <message>
+            <source>the report's page cannot be laid out</source>
+            <translation>无法排版报告页面</translation>
+        </message>
+        <message>
+            <source>there is no contour to write</source>
+            <translation>没有等高线可写</translation>
+        </message>
+        <message>
+            <source>choose a smaller interval</source>
+            <translation>请减小等高距</translation>
+        </message>
+        <message>
+            <source>no known mark and no GNSS height: the ground below the start of the run is height 0</source>
+            <translation>没有已知标志点和 GNSS 高程：以测线起点的地面为高程 0</translation>
+        </message>
+        <message>
+            <source>no GNSS position and no start mark: the way to the first mark is placed backwards from it</source>
+            <translation>没有 GNSS 位置和起点：到第一个点的路线由该点反推</translation>
+        </message>
+        <message>
+            <source>no GNSS position and no known mark: the run starts at the origin, its place on the ground is unknown</source>
+            <translation>没有 GNSS 位置和已知标志点：测线从原点开始，实地位置未知</translation>
+        </message>
+        <message>
+            <source>no GNSS position</source>
+            <translation>没有 GNSS 位置</translation>
+        </message>
+        <message>
+            <source>no optical flow that could be rotated to the ground</source>
+            <translation>没有可转到地面的光流</translation>
+        </message>
+        <message>
+            <source>no barometer</source>
+            <translation>没有气压计</translation>
+        </message>
+        <message>
+            <source>no range finder: this run gives no ground points</source>
+            <translation>没有测距仪：该测线不产生地面点</translation>
+        </message>
+        <message>
+            <source>no accelerometer</source>
+            <translation>没有加速度计</translation>
+        </message>
+        <message>
+            <source>the log names no fix: every GNSS position counts as single</source>
+            <translation>日志没有定位状态：所有 GNSS 位置按单点解处理</translation>
+        </message>
+        <message>
+            <source>the paper's method starts on a known mark; this run names none</source>
+            <translation>论文的方法从已知标志点开始；该测线没有指定</translation>
+        </message>
+        <message>
+            <source>cancelled</source>
+            <translation>已取消</translation>
+        </message>
+        <message>
+            <source>name the mark, or make it an area walk</source>
+            <translation>请指定标志点，或改为面积测线</translation>
+        </message>
+        <message>
+            <source>give each run its own name</source>
+            <translation>请给每条测线各自的名字</translation>
+        </message>
+        <message>
+            <source>use letters, digits, '-', '_' and '.', the first one no '.'</source>
+            <translation>请用字母、数字、“-”“_”“.”，第一个不能是“.”</translation>
+        </message>
+        <message>
+            <source>correct the name, or give the table with that mark</source>
+            <translation>请改正名字，或给出含该点的表</translation>
+        </message>
+        <message>
+            <source>line %1: %2</source>
+            <translation>第 %1 行：%2</translation>
+        </message>
+        <message>
+            <source>control marks, %1</source>
+            <translation>控制点：%1</translation>
+        </message>
+        <message>
+            <source>marks, %1</source>
+            <translation>标志点：%1</translation>
+        </message>
+        <message>
+            <source>cannot open: %1</source>
+            <translation>无法打开：%1</translation>
+        </message>
+        <message>
+            <source>cannot read: %1</source>
+            <translation>无法读取：%1</translation>
+        </message>
+        <message>
+            <source>cannot write: %1</source>
+            <translation>无法写入：%1</translation>
+        </message>
+        <message>
+            <source>the file is larger than %1 MB</source>
+            <translation>文件大于 %1 MB</translation>
+        </message>
+        <message>
+            <source>the line is longer than %1 bytes</source>
+            <translation>该行超过 %1 字节</translation>
+        </message>
+        <message>
+            <source>%1 of %2 rows are out of order, more than %3 %; this is the first</source>
+            <translation>%2 行中有 %1 行次序错乱，超过 %3 %；这是第一处</translation>
+        </message>
+        <message>
+            <source>unknown metadata key %1 is not used</source>
+            <translation>未知的元数据项 %1 不会使用</translation>
+        </message>
+        <message>
+            <source>metadata key %1 stands twice</source>
+            <translation>元数据项 %1 出现了两次</translation>
+        </message>
+        <message>
+            <source>format is %1</source>
+            <translation>格式是 %1</translation>
+        </message>
+        <message>
+            <source>it must be %1</source>
+            <translation>必须是 %1</translation>
+        </message>
+        <message>
+            <source>start_utc %1 is no ISO 8601 time</source>
+            <translation>start_utc %1 不是 ISO 8601 时间</translation>
+        </message>
+        <message>
+            <source>sample_interval_s %1 is no positive number</source>
+            <translation>sample_interval_s %1 不是正数</translation>
+        </message>
+        <message>
+            <source>%1 %2 is no vector</source>
+            <translation>%1 %2 不是向量</translation>
+        </message>
+        <message>
+            <source>%1 %2 is longer than %3 m</source>
+            <translation>%1 %2 长于 %3 m</translation>
+        </message>
+        <message>
+            <source>%1 %2 has more than three numbers</source>
+            <translation>%1 %2 多于三个数</translation>
+        </message>
+        <message>
+            <source>column %1 has no name</source>
+            <translation>第 %1 列没有列名</translation>
+        </message>
+        <message>
+            <source>column %1 stands twice</source>
+            <translation>列 %1 出现了两次</translation>
+        </message>
+        <message>
+            <source>no format line; read as %1</source>
+            <translation>没有格式行；按 %1 读取</translation>
+        </message>
+        <message>
+            <source>column %1: the quotation mark is not closed</source>
+            <translation>列 %1：引号没有闭合</translation>
+        </message>
+        <message>
+            <source>column %1: %2 is no finite number</source>
+            <translation>列 %1：%2 不是有限的数</translation>
+        </message>
+        <message>
+            <source>%1 fields, but the header has %2 columns</source>
+            <translation>有 %1 个字段，而标题行有 %2 列</translation>
+        </message>
+        <message>
+            <source>more fields than the %1 columns of the header</source>
+            <translation>字段多于标题行的 %1 列</translation>
+        </message>
+        <message>
+            <source>column %1: %2</source>
+            <translation>列 %1：%2</translation>
+        </message>
+        <message>
+            <source>the clock jumps back from %1 s (line %2) to %3 s, more than %4 s</source>
+            <translation>时钟从 %1 s（第 %2 行）跳回 %3 s，超过 %4 s</translation>
+        </message>
+        <message>
+            <source>%1 rows give only one of latitude and longitude; their positions are taken as missing</source>
+            <translation>%1 行只有纬度或只有经度；这些位置按缺失处理</translation>
+        </message>
+        <message>
+            <source>unknown column %1 is kept as auxiliary</source>
+            <translation>未知的列 %1 作为辅助列保留</translation>
+        </message>
+        <message>
+            <source>unknown column %1 is kept as auxiliary; %2 of its fields are no numbers</source>
+            <translation>未知的列 %1 作为辅助列保留；其中 %2 个字段不是数</translation>
+        </message>
+        <message>
+            <source>unknown column %1 is not used</source>
+            <translation>未知的列 %1 不会使用</translation>
+        </message>
+        <message>
+            <source>no column %1</source>
+            <translation>没有列 %1</translation>
+        </message>
+        <message>
+            <source>the first row must name the columns %1</source>
+            <translation>第一行必须写列名 %1</translation>
+        </message>
+        <message>
+            <source>mark %1 stands twice, first on line %2</source>
+            <translation>标志点 %1 出现了两次，第一次在第 %2 行</translation>
+        </message>
+        <message>
+            <source>column %1: a sigma cannot be negative</source>
+            <translation>列 %1：标准差不能为负</translation>
+        </message>
+        <message>
+            <source>column %1: %2 is more than 100 km</source>
+            <translation>列 %1：%2 超过 100 km</translation>
+        </message>
+        <message>
+            <source>column role: %1 is no role</source>
+            <translation>列 role：没有 %1 这种作用</translation>
+        </message>
+        <message>
+            <source>no valid JSON: %1</source>
+            <translation>不是有效的 JSON：%1</translation>
+        </message>
+        <message>
+            <source>the key %1 stands twice in one object</source>
+            <translation>键 %1 在同一对象中出现了两次</translation>
+        </message>
+        <message>
+            <source>%1 must be an object, but is %2</source>
+            <translation>%1 必须是对象，却是%2</translation>
+        </message>
+        <message>
+            <source>%1 must be %2, but is %3</source>
+            <translation>%1 必须是%2，却是%3</translation>
+        </message>
+        <message>
+            <source>%1 is missing</source>
+            <translation>缺少 %1</translation>
+        </message>
+        <message>
+            <source>%1 is empty</source>
+            <translation>%1 是空的</translation>
+        </message>
+        <message>
+            <source>%1 is %2, outside %3 to %4</source>
+            <translation>%1 的值 %2 不在 %3 到 %4 之内</translation>
+        </message>
+        <message>
+            <source>%1 must be later than from_s</source>
+            <translation>%1 必须晚于 from_s</translation>
+        </message>
+        <message>
+            <source>%1 is %2, which cannot name files</source>
+            <translation>%1 的值 %2 不能用作文件名</translation>
+        </message>
+        <message>
+            <source>%1.kind is %2</source>
+            <translation>%1.kind 是 %2</translation>
+        </message>
+        <message>
+            <source>unknown key %1 is not used</source>
+            <translation>未知的键 %1 不会使用</translation>
+        </message>
+        <message>
+            <source>runs[%1].id: %2 is already the id of runs[%3] (line %4)</source>
+            <translation>runs[%1].id：%2 已经是 runs[%3] 的编号（第 %4 行）</translation>
+        </message>
+        <message>
+            <source>runs[%1] reads the same log as runs[%2]</source>
+            <translation>runs[%1] 与 runs[%2] 读的是同一份日志</translation>
+        </message>
+        <message>
+            <source>%1: %2 holds a control character</source>
+            <translation>%1：%2 含有控制字符</translation>
+        </message>
+        <message>
+            <source>%1: %2 is an absolute path</source>
+            <translation>%1：%2 是绝对路径</translation>
+        </message>
+        <message>
+            <source>%1: %2 leaves the project's folder</source>
+            <translation>%1：%2 在项目文件夹之外</translation>
+        </message>
+        <message>
+            <source>%1: %2 leads out of the project's folder by a link</source>
+            <translation>%1：%2 经由链接指向项目文件夹之外</translation>
+        </message>
+        <message>
+            <source>%1: %2 cannot be looked up: %3</source>
+            <translation>%1：无法查找 %2：%3</translation>
+        </message>
+        <message>
+            <source>%1: there is no mark %2</source>
+            <translation>%1：没有标志点 %2</translation>
+        </message>
+        <message>
+            <source>runs[%1].stops[%2]: %3 to %4 s is not within the log, %5 to %6 s</source>
+            <translation>runs[%1].stops[%2]：%3 至 %4 s 不在日志的 %5 至 %6 s 之内</translation>
+        </message>
+        <message>
+            <source>a log's header names %1 and sensors, one of marks %2</source>
+            <translation>日志的标题行有 %1 和各传感器，标志点表的标题行是 %2</translation>
+        </message>
+        <message>
+            <source>it lies outside the survey's folder %1</source>
+            <translation>它不在测量的文件夹 %1 内</translation>
+        </message>
+        <message>
+            <source>there is no run %1</source>
+            <translation>没有测线 %1</translation>
+        </message>
+        <message>
+            <source>%1 is of kind %2</source>
+            <translation>%1 的类型是 %2</translation>
+        </message>
+        <message>
+            <source>GDAL reads no lines from this file: %1</source>
+            <translation>GDAL 无法从该文件读取线：%1</translation>
+        </message>
+        <message>
+            <source>the file cannot be read to its end: %1</source>
+            <translation>文件无法读到末尾：%1</translation>
+        </message>
+        <message>
+            <source>the cells are not square: %1 x %2</source>
+            <translation>像元不是正方形：%1 x %2</translation>
+        </message>
+        <message>
+            <source>the raster cannot be read: %1</source>
+            <translation>无法读取栅格：%1</translation>
+        </message>
+        <message>
+            <source>GDAL reads no raster from this file: %1</source>
+            <translation>GDAL 无法从该文件读取栅格：%1</translation>
+        </message>
+        <message>
+            <source>not enough memory for %1 x %2 cells</source>
+            <translation>内存不足以容纳 %1 x %2 个像元</translation>
+        </message>
+        <message>
+            <source>%1 is no CRS that PROJ knows</source>
+            <translation>PROJ 不认识坐标系 %1</translation>
+        </message>
+        <message>
+            <source>vertical datum "%1" is not supported</source>
+            <translation>不支持高程基准 "%1"</translation>
+        </message>
+        <message>
+            <source>CRS "%1" is geographic: its axes are degrees, and a terrain model needs metres</source>
+            <translation>坐标系 "%1" 是地理坐标系：单位是度，而地形模型需要米</translation>
+        </message>
+        <message>
+            <source>CRS "%1" is geocentric: it has no east and north axes</source>
+            <translation>坐标系 "%1" 是地心坐标系：没有东、北轴</translation>
+        </message>
+        <message>
+            <source>CRS "%1" has a vertical part, which is not supported yet: write the horizontal CRS alone (the part before the "+") and "vertical_datum": "ellipsoid" or "local"</source>
+            <translation>坐标系 "%1" 含高程部分，尚不支持：请只写平面坐标系（“+”之前的部分），并写 "vertical_datum": "ellipsoid" 或 "local"</translation>
+        </message>
+        <message>
+            <source>CRS "%1" is vertical only</source>
+            <translation>坐标系 "%1" 只有高程</translation>
+        </message>
+        <message>
+            <source>CRS "%1" is not a projected CRS</source>
+            <translation>坐标系 "%1" 不是投影坐标系</translation>
+        </message>
+        <message>
+            <source>CRS "%1" is not known (%2)</source>
+            <translation>坐标系 "%1" 未知（%2）</translation>
+        </message>
+        <message>
+            <source>CRS "%1" does not describe a coordinate reference system</source>
+            <translation>"%1" 不是坐标参考系</translation>
+        </message>
+        <message>
+            <source>CRS "%1" has axes in %2, not in metres</source>
+            <translation>坐标系 "%1" 的单位是 %2，不是米</translation>
+        </message>
+        <message>
+            <source>CRS "%1" has axes that point %2 and %3, not east and north</source>
+            <translation>坐标系 "%1" 的轴指向 %2 和 %3，不是东和北</translation>
+        </message>
+        <message>
+            <source>Positions go from WGS 84 to the datum of %1 by "%2", which is good to about %3 m.</source>
+            <translation>位置经 "%2" 从 WGS 84 转到 %1 的基准，精度约 %3 m。</translation>
+        </message>
+        <message>
+            <source>PROJ knows no transformation from WGS 84 to the datum of %1; the two are taken as one, which may be wrong by a metre or so.</source>
+            <translation>PROJ 没有从 WGS 84 到 %1 基准的转换；两者按相同处理，可能差一米左右。</translation>
+        </message>
+        <message>
+            <source>The zero point lies outside the area that the CRS is made for (lat %1 to %2, lon %3 to %4).</source>
+            <translation>零点不在该坐标系的适用范围内（纬度 %1 至 %2，经度 %3 至 %4）。</translation>
+        </message>
+        <message>
+            <source>In %1 1 m on the ground is %2 m on the map here; lengths, areas and slopes taken from the map are wrong by that factor.</source>
+            <translation>在 %1 中，此处地面 1 m 对应图上 %2 m；从图上量取的长度、面积和坡度都有这一比例的偏差。</translation>
+        </message>
+        <message>
+            <source>the GNSS positions of run %1 lie %2 km from the zero point</source>
+            <translation>测线 %1 的 GNSS 位置离零点 %2 km</translation>
+        </message>
+        <message>
+            <source>%1 epochs in all give too few ground points for a surface</source>
+            <translation>总共 %1 个历元，地面点太少，无法生成表面</translation>
+        </message>
+        <message>
+            <source>the survey gives too few ground points for a surface (most frequent reason: %1, %2 of %3 epochs)</source>
+            <translation>地面点太少，无法生成表面（最常见的原因：%1，%3 个历元中有 %2 个）</translation>
+        </message>
+        <message>
+            <source>no cell of %1 m has its centre on the surface</source>
+            <translation>没有 %1 m 像元的中心落在表面上</translation>
+        </message>
+        <message>
+            <source>%1 = %2 is not permitted</source>
+            <translation>%1 = %2 不允许</translation>
+        </message>
+        <message>
+            <source>permitted: %1</source>
+            <translation>允许：%1</translation>
+        </message>
+        <message>
+            <source>give a list: %1</source>
+            <translation>请写一个列表：%1</translation>
+        </message>
+        <message>
+            <source>item %1 of %2 is not permitted</source>
+            <translation>%2 的第 %1 项不允许</translation>
+        </message>
+        <message>
+            <source>unknown parameter '%1'</source>
+            <translation>未知的参数 '%1'</translation>
+        </message>
+        <message>
+            <source>did you mean %1? `terrawalk config describe` lists all</source>
+            <translation>是不是 %1？`terrawalk config describe` 列出全部参数</translation>
+        </message>
+        <message>
+            <source>%1 and this surface have no place in common</source>
+            <translation>%1 与当前表面没有重叠处</translation>
+        </message>
+        <message>
+            <source>the CRS is %1, that of the survey %2</source>
+            <translation>坐标系是 %1，测量的坐标系是 %2</translation>
+        </message>
+        <message>
+            <source>heights are in %1, those of the survey in %2</source>
+            <translation>高程单位是 %1，测量的单位是 %2</translation>
+        </message>
+        <message>
+            <source>the survey %1 lies in the output folder %2</source>
+            <translation>测量 %1 位于输出文件夹 %2 中</translation>
+        </message>
+        <message>
+            <source>the output folder %1 is a file</source>
+            <translation>输出文件夹 %1 是一个文件</translation>
+        </message>
+        <message>
+            <source>the output folder %1 holds something else than an earlier output: %2</source>
+            <translation>输出文件夹 %1 中有不属于以往输出的内容：%2</translation>
+        </message>
+        <message>
+            <source>the output folder %1 is a symbolic link that leads nowhere</source>
+            <translation>输出文件夹 %1 是指向空处的符号链接</translation>
+        </message>
+        <message>
+            <source>the output folder %1 is the root of the file system</source>
+            <translation>输出文件夹 %1 是文件系统的根</translation>
+        </message>
+        <message>
+            <source>the output folder %1 is the current folder or one around it, which cannot be replaced</source>
+            <translation>输出文件夹 %1 是当前文件夹或其上级，不能替换</translation>
+        </message>
+        <message>
+            <source>the output folder %1 is a mount point, which cannot be replaced</source>
+            <translation>输出文件夹 %1 是挂载点，不能替换</translation>
+        </message>
+        <message>
+            <source>cannot look at the output folder: %1</source>
+            <translation>无法查看输出文件夹：%1</translation>
+        </message>
+        <message>
+            <source>cannot read the output folder: %1</source>
+            <translation>无法读取输出文件夹：%1</translation>
+        </message>
+        <message>
+            <source>cannot find the output folder: %1</source>
+            <translation>找不到输出文件夹：%1</translation>
+        </message>
+        <message>
+            <source>cannot make the output folder: %1</source>
+            <translation>无法建立输出文件夹：%1</translation>
+        </message>
+        <message>
+            <source>cannot make the folder: %1</source>
+            <translation>无法建立文件夹：%1</translation>
+        </message>
+        <message>
+            <source>cannot put the output in place: %1</source>
+            <translation>无法把输出放到位：%1</translation>
+        </message>
+        <message>
+            <source>cannot put the previous output aside: %1</source>
+            <translation>无法移开以往的输出：%1</translation>
+        </message>
+        <message>
+            <source>cannot put the previous output back: %1</source>
+            <translation>无法放回以往的输出：%1</translation>
+        </message>
+        <message>
+            <source>cannot remove: %1</source>
+            <translation>无法删除：%1</translation>
+        </message>
+        <message>
+            <source>a surface of %1 points and %2 cells needs about %3 of memory, and %4 can be had</source>
+            <translation>%1 个点、%2 个像元的表面约需内存 %3，可用 %4</translation>
+        </message>
+        <message>
+            <source>%1: about %2 of memory are needed, and %3 can be had</source>
+            <translation>%1：约需内存 %2，可用 %3</translation>
+        </message>
+        <message>
+            <source>ask for a resolution of %1 or coarser, or for a smaller extent</source>
+            <translation>请用 %1 或更粗的分辨率，或缩小范围</translation>
+        </message>
+        <message>
+            <source>%1 holds the losses of an interrupted tuning</source>
+            <translation>%1 是中断的调参留下的记录</translation>
+        </message>
+        <message>
+            <source>run %1: the smoother failed at %2 s</source>
+            <translation>测线 %1：平滑在 %2 s 处失败</translation>
+        </message>
+        <message>
+            <source>run %1: the filter diverged %2 s after its start</source>
+            <translation>测线 %1：滤波在开始 %2 s 后发散</translation>
+        </message>
+        <message>
+            <source>run %1: the log has no epochs</source>
+            <translation>测线 %1：日志没有历元</translation>
+        </message>
+        <message>
+            <source>run %1: nothing in the log tells a position</source>
+            <translation>测线 %1：日志中没有能给出位置的内容</translation>
+        </message>
+        <message>
+            <source>a pressure-to-height fit needs at least two readings, there are %1</source>
+            <translation>气压与高程的拟合至少要两个读数，现有 %1 个</translation>
+        </message>
+        <message>
+            <source>a population of %1 individuals</source>
+            <translation>种群有 %1 个个体</translation>
+        </message>
+        <message>
+            <source>take %1 to %2</source>
+            <translation>请取 %1 到 %2</translation>
+        </message>
+        <message>
+            <source>%1 has too few vertices at different places</source>
+            <translation>%1 的不同位置的顶点太少</translation>
+        </message>
+        <message>
+            <source>%1 has a vertex that is no place on Earth</source>
+            <translation>%1 有一个顶点不是地球上的位置</translation>
+        </message>
+        <message>
+            <source>%1 and %2 meet at %3, %4 at heights of %5 and %6</source>
+            <translation>%1 与 %2 在 %3, %4 处相遇，高程为 %5 和 %6</translation>
+        </message>
+        <message>
+            <source>%1 and %2 cross at %3, %4</source>
+            <translation>%1 与 %2 在 %3, %4 处相交</translation>
+        </message>
+        <message>
+            <source>%1 crosses itself at %2, %3</source>
+            <translation>%1 在 %2, %3 处自相交</translation>
+        </message>
+        <message>
+            <source>%1 places in plan, all on one line or too few, make no surface</source>
+            <translation>平面上的 %1 个位置太少或都在一条直线上，不能构成表面</translation>
+        </message>
+        <message>
+            <source>not enough memory to triangulate %1 points</source>
+            <translation>内存不足以对 %1 个点做三角剖分</translation>
+        </message>
+        <message>
+            <source>the triangulation failed: %1</source>
+            <translation>三角剖分失败：%1</translation>
+        </message>
+        <message>
+            <source>method %1 cannot follow breaklines</source>
+            <translation>方法 %1 不能顾及断裂线</translation>
+        </message>
+        <message>
+            <source>the breaklines are in %1, the points in %2</source>
+            <translation>断裂线的坐标系是 %1，点的坐标系是 %2</translation>
+        </message>
+        <message>
+            <source>heights from %1 to %2 make more than %3 levels</source>
+            <translation>从 %1 到 %2 的高程超过 %3 层</translation>
+        </message>
+        <message>
+            <source>%1 points are too few for cross-validation</source>
+            <translation>%1 个点太少，无法交叉验证</translation>
+        </message>
+        <message>
+            <source>%1 ground points are more than a surface can hold</source>
+            <translation>%1 个地面点超过表面可容纳的数量</translation>
+        </message>
+        <message>
+            <source>a surface needs at least three ground points at different places, there are %1</source>
+            <translation>表面至少要三个不同位置的地面点，现有 %1 个</translation>
+        </message>
+        <message>
+            <source>all %1 ground points lie on one straight line</source>
+            <translation>%1 个地面点都在一条直线上</translation>
+        </message>
+        <message>
+            <source>no triangle between the ground points has all edges within %1 m</source>
+            <translation>没有三边都在 %1 m 以内的三角形</translation>
+        </message>
+        <message>
+            <source>a cell of %1 m is none</source>
+            <translation>%1 m 的像元无效</translation>
+        </message>
+        <message>
+            <source>cells of %1 m make a grid of %2 x %3, above the limit of %4 cells</source>
+            <translation>%1 m 的像元构成 %2 x %3 的格网，超过 %4 个像元的上限</translation>
+        </message>
+        <message>
+            <source>ask for a resolution of %1 m or coarser, or look for stray points far from the others</source>
+            <translation>请用 %1 m 或更粗的分辨率，或检查远离其他点的孤点</translation>
+        </message>
+        <message>
+            <source>not enough memory for a grid of %1 x %2 cells</source>
+            <translation>内存不足以容纳 %1 x %2 的格网</translation>
+        </message>
+        <message>
+            <source>not enough memory to interpolate between %1 points</source>
+            <translation>内存不足以对 %1 个点内插</translation>
+        </message>
+        <message>
+            <source>a B-spline over these points needs %1 control points</source>
+            <translation>这些点的 B 样条需要 %1 个控制点</translation>
+        </message>
+        <message>
+            <source>the points cannot be cleaned: %1</source>
+            <translation>无法清理这些点：%1</translation>
+        </message>
+        <message>
+            <source>ground point %1 of %2 is no place on Earth: %3</source>
+            <translation>%2 个地面点中的第 %1 个不是地球上的位置：%3</translation>
+        </message>
+        <message>
+            <source>edits name run '%1', which the survey lacks</source>
+            <translation>编辑中的测线 '%1' 不在测量中</translation>
+        </message>
+        <message>
+            <source>edits name mark '%1', which the survey lacks</source>
+            <translation>编辑中的点 '%1' 不在测量中</translation>
+        </message>
+        <message>
+            <source>run %1 has no records between %2 and %3 s</source>
+            <translation>测线 %1 在 %2 至 %3 s 之间没有记录</translation>
+        </message>
+        <message>
+            <source>rays reach farther than %1 m from the origin of the tree</source>
+            <translation>射线离八叉树原点超过 %1 m</translation>
+        </message>
+        <message>
+            <source>the DEM cannot hold the height %1 m</source>
+            <translation>DEM 无法存储高程 %1 m</translation>
+        </message>
+        <message>
+            <source>cannot make the DEM: %1</source>
+            <translation>无法建立 DEM：%1</translation>
+        </message>
+        <message>
+            <source>cannot describe the DEM: %1</source>
+            <translation>无法写入 DEM 的说明：%1</translation>
+        </message>
+        <message>
+            <source>cannot write the DEM: %1</source>
+            <translation>无法写入 DEM：%1</translation>
+        </message>
+        <message>
+            <source>the DEM just written does not read back: %1</source>
+            <translation>刚写入的 DEM 读回时不一致：%1</translation>
+        </message>
+        <message>
+            <source>cannot make the DEM's overviews: %1</source>
+            <translation>无法建立 DEM 的金字塔：%1</translation>
+        </message>
+        <message>
+            <source>GDAL does not understand the CRS of the DEM: %1</source>
+            <translation>GDAL 不认识 DEM 的坐标系：%1</translation>
+        </message>
+        <message>
+            <source>LAS cannot hold the CRS: %1</source>
+            <translation>LAS 无法存储坐标系：%1</translation>
+        </message>
+        <message>
+            <source>cannot make the PDF: %1</source>
+            <translation>无法生成 PDF：%1</translation>
+        </message>
+        <message>
+            <source>cannot write the lines: %1</source>
+            <translation>无法写入线：%1</translation>
+        </message>
+        <message>
+            <source>the picture cannot be encoded: %1</source>
+            <translation>无法编码图片：%1</translation>
+        </message>
+        <message>
+            <source>no known mark, GNSS height or range at the start: the array is taken to start %1 m above height 0</source>
+            <translation>起点没有已知标志点、GNSS 高程或测距：设备起始高度取高程 0 以上 %1 m</translation>
+        </message>
+        <message>
+            <source>no GNSS position in the first %1 s, so the start is less sure</source>
+            <translation>最初 %1 s 没有 GNSS 位置，起点较不确定</translation>
+        </message>
+        <message>
+            <source>no GNSS position for %1 s</source>
+            <translation>有 %1 s 没有 GNSS 位置</translation>
+        </message>
+        <message>
+            <source>no heading in %1 GNSS epochs: the horizontal lever arm of the antenna is not removed there but counted as variance</source>
+            <translation>%1 个 GNSS 历元没有航向：那里未改正天线的水平杆臂，而是计入方差</translation>
+        </message>
+        <message>
+            <source>GNSS is %1 m away from mark %2 on which the array stands at %3 s: check the name and the coordinates of the mark</source>
+            <translation>设备在 %3 s 停于标志点 %2，GNSS 却相距 %1 m：请检查点名和坐标</translation>
+        </message>
+        <message>
+            <source>the barometer puts mark %1 %2 m above its height at %3 s: check the name and the coordinates of the mark</source>
+            <translation>气压计在 %3 s 测得标志点 %1 高出已知高程 %2 m：请检查点名和坐标</translation>
+        </message>
+        <message>
+            <source>the barometer puts mark %1 %2 m below its height at %3 s: check the name and the coordinates of the mark</source>
+            <translation>气压计在 %3 s 测得标志点 %1 低于已知高程 %2 m：请检查点名和坐标</translation>
+        </message>
+        <message>
+            <source>%1: only %2 of %3 readings were used</source>
+            <translation>%1：%3 个读数中只用了 %2 个</translation>
+        </message>
+        <message>
+            <source>optical flow bridged by its recent mean for %1 s in all</source>
+            <translation>光流缺失处用近期均值代替，共 %1 s</translation>
+        </message>
+        <message>
+            <source>a sensor that had been rejected for long was let in again %1 times; the track may be off before that</source>
+            <translation>长期被拒的传感器重新启用了 %1 次；此前的航迹可能有偏差</translation>
+        </message>
+        <message>
+            <source>%1 missing in %2 of %3 epochs; the last value is held</source>
+            <translation>%1 在 %3 个历元中缺失 %2 个；沿用前值</translation>
+        </message>
+        <message>
+            <source>%1 ended on its lower bound %2: the data ask for more than the box allows, or say nothing of it</source>
+            <translation>%1 停在下界 %2：数据要求超出范围，或数据不能确定它</translation>
+        </message>
+        <message>
+            <source>%1 ended on its upper bound %2: the data ask for more than the box allows, or say nothing of it</source>
+            <translation>%1 停在上界 %2：数据要求超出范围，或数据不能确定它</translation>
+        </message>
+        <message>
+            <source>the data cannot tell %1 apart from %2 to %3: the loss changes by less than %4 % in between</source>
+            <translation>数据无法在 %2 至 %3 之间分辨 %1：其间损失的变化小于 %4 %</translation>
+        </message>
+        <message>
+            <source>%1 points lay within %2 of another or of a breakline</source>
+            <translation>%1 个点与其他点或断裂线的距离在 %2 以内</translation>
+        </message>
+        <message>
+            <source>no cross-validation: %1</source>
+            <translation>没有交叉验证：%1</translation>
+        </message>
+        <message>
+            <source>the fixed-point run %1 has no target mark</source>
+            <translation>定点测线 %1 没有终点标志</translation>
+        </message>
+        <message>
+            <source>the fixed-point run %1 has no start mark</source>
+            <translation>定点测线 %1 没有起点标志</translation>
+        </message>
+        <message>
+            <source>two runs are named %1</source>
+            <translation>有两条测线都叫 %1</translation>
+        </message>
+        <message>
+            <source>%1 cannot be the name of a run</source>
+            <translation>%1 不能作测线名</translation>
+        </message>
+        <message>
+            <source>run %1 names the mark %2, which is not known</source>
+            <translation>测线 %1 指定的标志点 %2 未知</translation>
+        </message>
+        <message>
+            <source>%1; %2</source>
+            <translation>%1；%2</translation>
+        </message>
+        <message>
+            <source>%1: %2</source>
+            <translation>%1：%2</translation>
+        </message>
+        <message>
+            <source>the system of equations holds a number that is not finite</source>
+            <translation>方程组中有非有限的数</translation>
+        </message>
+        <message>
+            <source>the system of equations is not positive definite</source>
+            <translation>方程组不是正定的</translation>
+        </message>
+        <message>
+            <source>the longest edge may not be below zero</source>
+            <translation>最长边不能小于零</translation>
+        </message>
+        <message>
+            <source>the distance of points that become one may not be below zero</source>
+            <translation>合并点的距离不能小于零</translation>
+        </message>
+        <message>
+            <source>cross-validation needs at least two folds</source>
+            <translation>交叉验证至少要两折</translation>
+        </message>
+        <message>
+            <source>the side of a block may not be below zero</source>
+            <translation>分块的边长不能小于零</translation>
+        </message>
+        <message>
+            <source>the extent has no area</source>
+            <translation>范围没有面积</translation>
+        </message>
+        <message>
+            <source>the spacing of the B-spline's finest lattice must be at least 0.05</source>
+            <translation>B 样条最细格距至少为 0.05</translation>
+        </message>
+        <message>
+            <source>statistical outliers need at least one neighbour and sigmas not below zero</source>
+            <translation>统计离群点至少要一个相邻点，且标准差倍数不小于零</translation>
+        </message>
+        <message>
+            <source>radius outliers need a radius above zero and at least one neighbour</source>
+            <translation>半径离群点要求半径大于零且至少一个相邻点</translation>
+        </message>
+        <message>
+            <source>sizes and heights of what stands above the ground must be above zero, the greatest not below the least, the window not above 1000 cells</source>
+            <translation>地面以上物体的尺寸和高度必须大于零，最大值不小于最小值，窗口不超过 1000 个像元</translation>
+        </message>
+        <message>
+            <source>voxels and ranges must be above zero</source>
+            <translation>体素和距离必须大于零</translation>
+        </message>
+        <message>
+            <source>the least and greatest of a terrace edge must be above zero</source>
+            <translation>梯田坎的最小值和最大值必须大于零</translation>
+        </message>
+        <message>
+            <source>the surface has more vertices or triangles than a mesh file can count</source>
+            <translation>表面的顶点或三角形超过网格文件可计的数量</translation>
+        </message>
+        <message>
+            <source>more runs than LAS can number</source>
+            <translation>测线数超过 LAS 可编号的数量</translation>
+        </message>
+        <message>
+            <source>GDAL was built without GeoPackage</source>
+            <translation>GDAL 不支持 GeoPackage</translation>
+        </message>
+        <message>
+            <source>cannot write a feature</source>
+            <translation>无法写入要素</translation>
+        </message>
+        <message>
+            <source>cannot write the points</source>
+            <translation>无法写入点</translation>
+        </message>
+        <message>
+            <source>cannot make polygons</source>
+            <translation>无法生成面</translation>
+        </message>
+        <message>
+            <source>name a file .gpkg, .geojson or .dxf</source>
+            <translation>请用 .gpkg、.geojson 或 .dxf 文件名</translation>
+        </message>
+        <message>
+            <source>no colours or no heights to show</source>
+            <translation>没有可显示的颜色或高程</translation>
+        </message>
+        <message>
+            <source>OpenSSL offers no SHA-256 on this machine</source>
+            <translation>本机的 OpenSSL 不提供 SHA-256</translation>
+        </message>
+        <message>
+            <source>the DEM has no standard errors</source>
+            <translation>DEM 没有标准差</translation>
+        </message>
+        <message>
+            <source>this is no folder that `terrawalk process` wrote</source>
+            <translation>这不是 `terrawalk process` 写的文件夹</translation>
+        </message>
+        <message>
+            <source>process the survey first</source>
+            <translation>请先处理测量</translation>
+        </message>
+        <message>
+            <source>the system of equations does not determine unknown %1</source>
+            <translation>方程组无法确定未知数 %1</translation>
+        </message>
+        <message>
+            <source>no barometric height for a pressure of %1 Pa at %2 m</source>
+            <translation>气压 %1 Pa、高程 %2 m 处无法求气压高</translation>
+        </message>
+        <message>
+            <source>GDAL has no driver %1</source>
+            <translation>GDAL 没有驱动 %1</translation>
+        </message>
+        <message>
+            <source>cannot make the layer %1</source>
+            <translation>无法建立图层 %1</translation>
+        </message>
+        <message>
+            <source>cannot make the field %1</source>
+            <translation>无法建立字段 %1</translation>
+        </message>
+        <message>
+            <source>contours cannot be written as %1</source>
+            <translation>等高线不能写成 %1</translation>
+        </message>
+        <message>
+            <source>cannot write the project: %1</source>
+            <translation>无法写入项目：%1</translation>
+        </message>
+        <message>
+            <source>a drawing: %1</source>
+            <translation>图：%1</translation>
+        </message>
+        <message>
+            <source>GDAL names no reason</source>
+            <translation>GDAL 没有说明原因</translation>
+        </message>
+        <message>
+            <source>write %1</source>
+            <translation>请写 %1</translation>
+        </message>
+        <message>
+            <source>permitted: %1 to %2</source>
+            <translation>允许：%1 到 %2</translation>
+        </message>
+        <message>
+            <source>column %1: %2: %3</source>
+            <translation>列 %1：%2：%3</translation>
         </message>
     </context>
     <context>
