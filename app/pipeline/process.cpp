@@ -321,6 +321,7 @@ SurfaceReport reportSurface(const Surface& surface, const PipelineConfig& config
     report.notes = ground.notes;
     if (!surface.choice.note.empty()) report.notes.push_back(surface.choice.note);
     if (const auto& scale = surface.model.varianceScale()) report.notes.push_back(inWords(*scale));
+    report.variogram = summaryOf(surface.model.variogram());
     report.points = surface.carrying_points;
     report.triangles = ground.mesh.triangles.size();
     report.longest_edge_m = ground.longest_edge_m;

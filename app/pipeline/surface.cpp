@@ -185,12 +185,12 @@ std::string extentText(const TriangleMesh& mesh) {
 /// Points and surface end with this function: writing needs their memory.
 Result<InterpolatedGrid> gridOf(SurfaceInput input, GroundTriangles ground, const GridGeometry& geometry,
                                 InterpolationMethod method, const SurfaceModelOptions& options,
-                                std::vector<std::string>& notes, Progress& progress,
-                                const std::stop_token& stop) {
+                                SurfaceOutcome& report, Progress& progress, const std::stop_token& stop) {
     PartialProgress fitting(progress, 0.0, 0.5), gridding(progress, 0.5, 1.0);
     const auto surface = SurfaceModel::fit(input, std::move(ground), method, options, fitting, stop);
     if (!surface) return tl::unexpected(surface.error());
-    if (const auto& scale = surface->varianceScale()) notes.push_back(inWords(*scale));
+    if (const auto& scale = surface->varianceScale()) report.notes.push_back(inWords(*scale));
+    report.variogram = summaryOf(surface->variogram());
     if (method == InterpolationMethod::Linear) input = {};  // the triangles hold all of it
     return surface->grid(geometry, gridding, stop);
 }
@@ -283,6 +283,15 @@ nlohmann::ordered_json reasonsJson(const std::vector<CountedReason>& reasons) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const CountedReason& r : reasons) list.push_back({{"reason", r.reason}, {"count", r.count}});
     return list;
+}
+
+/// In the unit of the points, or its square.
+nlohmann::ordered_json variogramJson(const VariogramSummary& v) {
+    nlohmann::ordered_json document{
+        {"model", v.model}, {"nugget", v.nugget_m2}, {"sill", v.sill_m2}, {"range", v.range_m}};
+    if (v.exponent) document["exponent"] = *v.exponent;
+    document["pairs"] = v.pairs;
+    return document;
 }
 
 nlohmann::ordered_json validationJson(const CrossValidation& validation) {
@@ -407,8 +416,8 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
     const std::vector<TerraceEdge> edges = std::move(ground->terrace_edges);
     const std::string covered = extentText(ground->mesh);
     PartialProgress fitting(progress, 0.7, 0.9);
-    auto grid = gridOf(std::move(input), std::move(*ground), *geometry, report.method, model, report.notes,
-                       fitting, stop);
+    auto grid =
+        gridOf(std::move(input), std::move(*ground), *geometry, report.method, model, report, fitting, stop);
     if (!grid) return tl::unexpected(grid.error());
     summarize(grid->heights, report);
     if (report.cells_with_height == 0 && request.extent) {
@@ -440,6 +449,7 @@ std::string toText(const SurfaceOutcome& report) {
                             report.terrace_edges.count, report.terrace_edges.length_m, unit,
                             report.terrace_edges.median_step_m, unit);
     }
+    if (report.variogram) text += fmt::format("Variogram   {}\n", inWords(*report.variogram, unit));
     if (report.validation) text += validationText(*report.validation, unit);
     for (const std::string& note : report.notes) text += "Note: " + note + "\n";
     for (const fs::path& file : report.files) text += "Written to " + file.string() + "\n";
@@ -485,6 +495,7 @@ std::string toJson(const SurfaceOutcome& report) {
         {"seed", report.request.model.seed},
         {"notes", report.notes},
         {"files", files}};
+    if (report.variogram) document["variogram"] = variogramJson(*report.variogram);
     if (report.validation) document["cross_validation"] = validationJson(*report.validation);
     return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -52,6 +52,7 @@ struct SurfaceOutcome {
     double greatest_height = 0.0;
     double memory_need_bytes = 0.0;
     std::optional<CrossValidation> validation;
+    std::optional<VariogramSummary> variogram;  ///< of kriging
     std::vector<std::string> notes;
     std::vector<std::filesystem::path> files;
     std::string points_sha256;

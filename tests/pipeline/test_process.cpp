@@ -202,6 +202,7 @@ TEST(Process, GridsByTheMethodAskedForAndSaysWhich) {
         EXPECT_THAT(products.report.surface.notes, testing::Contains(told).Times(own_variance ? 1 : 0))
             << text;
         EXPECT_GT(products.report.surface.uncertainty->at_point_m, 0.0) << text;
+        EXPECT_EQ(products.report.surface.variogram.has_value(), own_variance) << text;
     }
     config.surface.method.reset();
     const Products best = processed(s.survey, config);

@@ -86,6 +86,14 @@ TEST(Surface, PutsHeightsAndErrorsInOneFileWhereKrigingHasThem) {
     ASSERT_TRUE(kriging) << kriging.error().text();
     ASSERT_THAT(kriging->files, Contains(folder / "dem_multiband.tif"));
     EXPECT_THAT(kriging->notes, Contains(HasSubstr("variance of the method: noise times")));
+    const auto variogram = nlohmann::json::parse(bytesOf(folder / "dem.json")).at("variogram");
+    EXPECT_EQ(variogram.at("model"), kriging->variogram.value().model);
+    EXPECT_GT(variogram.at("nugget").get<double>(), 0.0);
+    EXPECT_GT(variogram.at("sill").get<double>(), 0.0);
+    EXPECT_GT(variogram.at("range").get<double>(), 0.0);
+    EXPECT_GT(variogram.at("pairs").get<std::size_t>(), 100u);
+    EXPECT_THAT(toText(*kriging), HasSubstr("Variogram"));
+    EXPECT_FALSE(linear->variogram);
     // Its first band is the DEM's.
     const auto both = readDem(folder / "dem_multiband.tif", {}), alone = readDem(folder / "dem.tif", {});
     ASSERT_TRUE(both && alone);
