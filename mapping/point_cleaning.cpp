@@ -18,6 +18,7 @@
 #include <string>
 #include <utility>
 
+#include "mapping/plan_kd_tree.hpp"
 #include "mapping/point_order.hpp"
 
 namespace terrawalk {
@@ -210,7 +211,37 @@ double extentOf(const Cloud& cloud, const pcl::Indices& members) {
     return (greatest - least).norm();
 }
 
-/// Those that belong to nothing as long as a terrace.
+/// Which of the things lie level with ground beside them, as the edge of a terrace does and a plant does not.
+std::vector<char> levelWithGround(const Cloud& cloud, const pcl::Indices& things,
+                                  const AboveGroundOptions& options) {
+    constexpr std::size_t kLeastBeside = 3;
+    constexpr std::size_t kMostBeside = 64;
+    constexpr double kLeastShare = 0.35;  // at an edge half the ground about is level, less what was taken
+    const double reach_m = 2.0 * options.link_m;
+    const pcl::Indices ground = othersThan(things, cloud.size());
+    std::vector<Eigen::Vector3d> places_m;
+    for (const pcl::index_t i : ground) {
+        places_m.push_back(cloud[static_cast<std::size_t>(i)].getVector3fMap().cast<double>());
+    }
+    std::vector<char> level(things.size(), 0);
+    if (places_m.size() < kLeastBeside) return level;
+    const PlanKdTree tree(places_m);
+    std::vector<Neighbour> near;
+    for (std::size_t t = 0; t < things.size(); ++t) {
+        const Eigen::Vector3d at_m =
+            cloud[static_cast<std::size_t>(things[t])].getVector3fMap().cast<double>();
+        tree.nearest(at_m.head<2>(), kMostBeside, near);
+        std::erase_if(near, [&](const Neighbour& n) { return n.squared_distance_m2 > reach_m * reach_m; });
+        const auto at_level = std::count_if(near.begin(), near.end(), [&](const Neighbour& n) {
+            return std::abs(places_m[n.point].z() - at_m.z()) <= 0.5 * options.least_height_m;
+        });
+        const auto least = std::max<double>(kLeastBeside, kLeastShare * static_cast<double>(near.size()));
+        level[t] = static_cast<double>(at_level) >= least ? 1 : 0;
+    }
+    return level;
+}
+
+/// Those that belong to nothing as long as a terrace, nor lie level with the ground beside for the most part.
 pcl::Indices shortThings(const Cloud::Ptr& cloud, const pcl::Indices& things,
                          const AboveGroundOptions& options) {
     if (things.empty() || options.terrace_length_m == 0.0) return things;
@@ -221,9 +252,14 @@ pcl::Indices shortThings(const Cloud::Ptr& cloud, const pcl::Indices& things,
     clusters.setMinClusterSize(1);
     std::vector<pcl::PointIndices> found;
     clusters.extract(found);
+    const std::vector<char> level = levelWithGround(*cloud, things, options);
     pcl::Indices taken;
     for (const pcl::PointIndices& cluster : found) {
         if (extentOf(*part, cluster.indices) >= options.terrace_length_m) continue;
+        const auto on_ground =
+            std::count_if(cluster.indices.begin(), cluster.indices.end(),
+                          [&](pcl::index_t i) { return level[static_cast<std::size_t>(i)] != 0; });
+        if (2 * static_cast<std::size_t>(on_ground) > cluster.indices.size()) continue;
         for (const pcl::index_t i : cluster.indices) taken.push_back(things[static_cast<std::size_t>(i)]);
     }
     return taken;

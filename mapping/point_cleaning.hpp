@@ -27,7 +27,8 @@ struct RadiusOutlierOptions {
 /// What stands on the ground and is narrower than a window: plants, and a hand in front of the range finder
 /// (progressive morphological filter, Zhang et al. 2003). The filter alone would take the edge of a terrace
 /// for such a thing where few points lie above it; what it took is given back where it goes on for
-/// `terrace_length_m`, as terraces do and plants do not.
+/// `terrace_length_m`, or where most of it lies level with a good part of the ground within two links, as
+/// terraces do and plants do not.
 struct AboveGroundOptions {
     bool use = false;
     double cell_m = 0.5;             ///< windows are 3, 5, 9, ... cells wide

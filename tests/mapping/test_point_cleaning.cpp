@@ -125,6 +125,40 @@ TEST(PointCleaning, LeavesTerracesWhereTheFilterAloneWouldNot) {
     EXPECT_GT(count(*clean(bund, bare), GroundPointState::AboveGround), 100U) << "as published";
 }
 
+// Scattered points, where the upper edge of a wall is broken into things of a few points.
+TEST(PointCleaning, LeavesTheUpperEdgeOfAWallAndTakesWhatGrowsBesideIt) {
+    const auto wall = [](double e_m, double n_m) {
+        return 0.05 * e_m + (n_m > 30.0 ? 1.2 : 0.0);
+    };
+    std::size_t wrong = 0, missed = 0, plants = 0;
+    for (const std::uint64_t seed : {11U, 12U, 13U}) {
+        RandomNumbers random(seed);
+        std::vector<GroundPoint> points;
+        for (int i = 0; i < 6000; ++i) {
+            const double e = random.uniform(0.0, 60.0), n = random.uniform(0.0, 60.0);
+            points.push_back(pointAt(e, n, wall(e, n) + 0.02 * random.normal()));
+        }
+        const std::size_t ground = points.size();
+        for (int i = 0; i < 8; ++i) {
+            const double e = 5.0 + 7.0 * i, n = i % 2 == 0 ? 28.5 : 32.0;
+            for (int hit = 0; hit < 20; ++hit) {
+                const double e_m = e + 0.3 * random.normal(), n_m = n + 0.3 * random.normal();
+                points.push_back(pointAt(e_m, n_m, wall(e_m, n_m) + random.uniform(0.5, 2.5)));
+            }
+        }
+        const auto cleaned = clean(points, aboveGround());
+        ASSERT_TRUE(cleaned) << cleaned.error().message;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const bool taken = (*cleaned)[i].state == GroundPointState::AboveGround;
+            plants += i >= ground;
+            wrong += i < ground && taken;
+            missed += i >= ground && !taken;
+        }
+    }
+    EXPECT_LE(wrong, 20U);
+    EXPECT_LE(missed, plants / 50);
+}
+
 TEST(PointCleaning, DoesNotDependOnOrderOrThreadsAndCanBeTakenBack) {
     std::vector<GroundPoint> points = walkOver(terraces, 5);
     for (std::size_t i = 0; i < points.size(); i += 97) points[i].enu_m.z() += 1.5;
