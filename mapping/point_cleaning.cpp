@@ -18,6 +18,7 @@
 #include <string>
 #include <utility>
 
+#include "mapping/order_statistics.hpp"
 #include "mapping/plan_kd_tree.hpp"
 #include "mapping/point_order.hpp"
 
@@ -116,6 +117,27 @@ pcl::Indices statisticalOutliers(const Cloud::Ptr& cloud, const StatisticalOutli
         if (double{distances_m[i]} > limit_m) outliers.push_back(static_cast<pcl::index_t>(i));
     }
     return outliers;
+}
+
+double spacingRadius_m(const Cloud::Ptr& cloud, int neighbours) {
+    constexpr double kWithoutSpacing_m = 1.0;
+    constexpr double kShare = 0.95, kMultiple = 2.0;
+    constexpr std::size_t kMostPoints = 20'000;
+    const auto wanted = static_cast<std::size_t>(neighbours) + 1;
+    if (cloud->size() < wanted) return kWithoutSpacing_m;
+    pcl::KdTreeFLANN<pcl::PointXYZ> tree(true);
+    tree.setInputCloud(cloud);
+    pcl::Indices found(wanted);
+    std::vector<float> squares_m2(wanted);
+    std::vector<double> distances_m;
+    const std::size_t step = (cloud->size() + kMostPoints - 1) / kMostPoints;
+    for (std::size_t i = 0; i < cloud->size(); i += step) {
+        tree.nearestKSearch((*cloud)[i], static_cast<int>(wanted), found, squares_m2);
+        distances_m.push_back(std::sqrt(double{squares_m2.back()}));
+    }
+    std::sort(distances_m.begin(), distances_m.end());
+    const double usual_m = quantileOfSorted(distances_m, kShare);
+    return usual_m > 0.0 ? kMultiple * usual_m : kWithoutSpacing_m;
 }
 
 /// As pcl::RadiusOutlierRemoval of a cloud without gaps.
@@ -276,8 +298,8 @@ Result<void> check(const PointCleaningOptions& options) {
         return usageError("statistical outliers need at least one neighbour and sigmas not below zero");
     }
     const RadiusOutlierOptions& r = options.radius;
-    if (r.use && !(r.radius_m > 0.0 && r.least_neighbours > 0)) {
-        return usageError("radius outliers need a radius above zero and at least one neighbour");
+    if (r.use && !(r.radius_m >= 0.0 && r.least_neighbours > 0)) {
+        return usageError("radius outliers need a radius not below zero and at least one neighbour");
     }
     const AboveGroundOptions& a = options.above_ground;
     const bool sizes =
@@ -293,11 +315,19 @@ Result<void> check(const PointCleaningOptions& options) {
 
 }  // namespace
 
+double isolationRadius_m(const std::vector<GroundPoint>& points, const RadiusOutlierOptions& options) {
+    if (options.radius_m > 0.0) return options.radius_m;
+    return spacingRadius_m(usedPoints(points).cloud, options.least_neighbours);
+}
+
 Result<std::vector<GroundPoint>> cleanGroundPoints(std::vector<GroundPoint> points,
                                                    const PointCleaningOptions& options, Progress& progress,
                                                    std::stop_token stop) {
     if (auto checked = check(options); !checked) return tl::unexpected(checked.error());
     try {
+        RadiusOutlierOptions radius = options.radius;
+        // Before a point is gone, so that everybody who asks is told the same.
+        if (radius.use && !stop.stop_requested()) radius.radius_m = isolationRadius_m(points, radius);
         if (options.statistical.use && !stop.stop_requested()) {
             PartialProgress part(progress, 0.0, 0.2);
             const UsedPoints used = usedPoints(points);
@@ -307,8 +337,7 @@ Result<std::vector<GroundPoint>> cleanGroundPoints(std::vector<GroundPoint> poin
         if (options.radius.use && !stop.stop_requested()) {
             PartialProgress part(progress, 0.2, 0.3);
             const UsedPoints used = usedPoints(points);
-            mark(points, used, radiusOutliers(used.cloud, options.radius, part, stop),
-                 GroundPointState::Isolated);
+            mark(points, used, radiusOutliers(used.cloud, radius, part, stop), GroundPointState::Isolated);
         }
         if (options.above_ground.use && !stop.stop_requested()) {
             progress.report(0.3, "looking for what stands above the ground");

@@ -18,6 +18,7 @@
 #include "mapping/gridding.hpp"
 #include "mapping/mark_residuals.hpp"
 #include "mapping/order_statistics.hpp"
+#include "mapping/point_cleaning.hpp"
 #include "mapping/surface_uncertainty.hpp"
 
 namespace terrawalk {
@@ -560,6 +561,9 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     products.used = config;
     products.used.surface.tin.longest_edge_m = ground.longest_edge_m;
     products.used.surface.method = surface->model.method();
+    if (RadiusOutlierOptions& radius = products.used.surface.cleaning.radius; radius.use) {
+        radius.radius_m = isolationRadius_m(ofChosenRuns(survey, fused->points, config.surface), radius);
+    }
     if (config.surface.cell_m == 0.0) {
         products.used.surface.cell_m = suggestCellSize(ground.area_m2, surface->carrying_points);
     }

@@ -138,7 +138,9 @@ Result<void> cleanInput(const SurfaceRequest& request, double metres_per_unit, S
         points[i].epoch = static_cast<std::uint32_t>(i);
         points[i].enu_m = metres_per_unit * input.points_m[i];
     }
-    auto cleaned = cleanGroundPoints(std::move(points), request.cleaning, progress, stop);
+    RadiusOutlierOptions& radius = report.cleaning.radius;
+    if (radius.use) radius.radius_m = isolationRadius_m(points, radius);
+    auto cleaned = cleanGroundPoints(std::move(points), report.cleaning, progress, stop);
     if (!cleaned) return tl::unexpected(cleaned.error());
     points = thinGroundPoints(std::move(*cleaned), request.thinning_cell_m);
     report.points_left_out = leftOutByReason(points);
@@ -294,6 +296,27 @@ nlohmann::ordered_json variogramJson(const VariogramSummary& v) {
     return document;
 }
 
+/// The filters in use, in metres.
+nlohmann::ordered_json cleaningJson(const PointCleaningOptions& cleaning) {
+    nlohmann::ordered_json filters = nlohmann::ordered_json::object();
+    if (const StatisticalOutlierOptions& s = cleaning.statistical; s.use) {
+        filters["statistical"] = {{"neighbours", s.neighbours}, {"sigmas", s.sigmas}};
+    }
+    if (const RadiusOutlierOptions& r = cleaning.radius; r.use) {
+        filters["radius"] = {{"radius_m", r.radius_m}, {"least_neighbours", r.least_neighbours}};
+    }
+    if (const AboveGroundOptions& a = cleaning.above_ground; a.use) {
+        filters["above_ground"] = {{"cell_m", a.cell_m},
+                                   {"greatest_window_m", a.greatest_window_m},
+                                   {"slope", a.slope},
+                                   {"least_height_m", a.least_height_m},
+                                   {"greatest_height_m", a.greatest_height_m},
+                                   {"link_m", a.link_m},
+                                   {"terrace_length_m", a.terrace_length_m}};
+    }
+    return filters;
+}
+
 nlohmann::ordered_json validationJson(const CrossValidation& validation) {
     nlohmann::ordered_json results = nlohmann::ordered_json::array();
     for (const HoldOutResult& result : validation.results) {
@@ -352,6 +375,7 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
     if (!points) return tl::unexpected(points.error());
     SurfaceOutcome report;
     report.request = request;
+    report.cleaning = request.cleaning;
     report.notes = points->notes;
     report.points_in_file = points->in_file;
     auto crs = coordinateSystemOf(request, *points, report.notes);
@@ -444,6 +468,10 @@ std::string toText(const SurfaceOutcome& report) {
     for (const CountedReason& reason : report.points_left_out) {
         text += fmt::format("Left out    {} points: {}\n", reason.count, reason.reason);
     }
+    if (const RadiusOutlierOptions& radius = report.cleaning.radius; radius.use) {
+        text += fmt::format("Isolated    fewer than {} others within {:.3g} m\n", radius.least_neighbours,
+                            radius.radius_m);
+    }
     if (report.terrace_edges.count > 0) {
         text += fmt::format("Edges       {} terrace edges, {:.0f} {} long in all, median step {:.2f} {}\n",
                             report.terrace_edges.count, report.terrace_edges.length_m, unit,
@@ -468,6 +496,7 @@ std::string toJson(const SurfaceOutcome& report) {
         {"points_in_file", report.points_in_file},
         {"points_used", report.points_used},
         {"points_left_out", reasonsJson(report.points_left_out)},
+        {"cleaning", cleaningJson(report.cleaning)},
         {"breaklines", report.breaklines_used},
         {"terrace_edges",
          {{"requested", name(report.request.model.terrace_edges)},

@@ -40,6 +40,7 @@ struct SurfaceOutcome {
     CoordinateSystem crs;
     std::size_t points_in_file = 0;
     std::size_t points_used = 0;
+    PointCleaningOptions cleaning;               ///< as used: with the radius that was found
     std::vector<CountedReason> points_left_out;  ///< by cleaning and thinning
     std::optional<MapPoints> cleaned;            ///< every point, where there was cleaning or thinning
     std::size_t breaklines_used = 0;

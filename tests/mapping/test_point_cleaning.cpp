@@ -81,6 +81,33 @@ TEST(PointCleaning, TakesPlantedOutliersAndLittleElse) {
     }
 }
 
+TEST(PointCleaning, IsolationFollowsTheSpacingOfThePoints) {
+    PointCleaningOptions options;
+    options.radius.use = true;
+    for (const double side_m : {6.0, 60.0, 1200.0}) {
+        RandomNumbers random(21);
+        std::vector<GroundPoint> points;
+        for (int i = 0; i < 6000; ++i) {
+            points.push_back(pointAt(random.uniform(0.0, side_m), random.uniform(0.0, side_m), 0.0));
+        }
+        const std::size_t ground = points.size();
+        for (int i = 0; i < 6; ++i) points.push_back(pointAt((2.0 + i) * side_m, 0.0, 0.0));
+        const double radius_m = isolationRadius_m(points, options.radius);
+        EXPECT_NEAR(radius_m, 0.033 * side_m, 0.004 * side_m);
+        const auto cleaned = clean(points, options);
+        ASSERT_TRUE(cleaned);
+        EXPECT_EQ(count(*cleaned, GroundPointState::Isolated), 6U) << side_m;
+        for (std::size_t i = ground; i < points.size(); ++i) {
+            EXPECT_EQ((*cleaned)[i].state, GroundPointState::Isolated);
+        }
+    }
+    options.radius.radius_m = 0.7;
+    EXPECT_EQ(isolationRadius_m({}, options.radius), 0.7);
+    options.radius.radius_m = 0.0;
+    EXPECT_EQ(isolationRadius_m({}, options.radius), 1.0);
+    EXPECT_EQ(isolationRadius_m(std::vector<GroundPoint>(9, pointAt(1, 1, 1)), options.radius), 1.0);
+}
+
 TEST(PointCleaning, TakesHandsAndPlantsOffSlopesAndTerraces) {
     for (const Ground& ground : {Ground(gentleSlope), Ground(terraces)}) {
         std::vector<GroundPoint> points = walkOver(ground, 2);
