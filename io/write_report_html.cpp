@@ -545,6 +545,7 @@ std::string surfaceSection(const SurveyReport& report) {
                                     u.own_variance ? "the method\u2019s own variance, scaled; " : "",
                                     groupedDigits(u.left_out.n), share(u.left_out.within, u.left_out.n)));
     }
+    if (s.variogram) rows += pairRow("Variogram", inWords(*s.variogram, "m"));
     rows += pairRow("Heights", fmt::format("{} m to {} m", metres3(s.lowest_m), metres3(s.highest_m)));
     rows += pairRow("Map frame", s.crs);
     rows += pairRow("Heights refer to", s.vertical_datum);

@@ -163,6 +163,16 @@ Json uncertaintyJson(const std::optional<UncertaintySummary>& u) {
             {"left_out", coverageJson(u->left_out)}};
 }
 
+Json variogramJson(const std::optional<VariogramSummary>& v) {
+    if (!v) return nullptr;
+    return {{"model", v->model},
+            {"nugget_m2", jsonNumber(v->nugget_m2)},
+            {"sill_m2", jsonNumber(v->sill_m2)},
+            {"range_m", jsonNumber(v->range_m)},
+            {"exponent", v->exponent ? Json(*v->exponent) : Json(nullptr)},
+            {"pairs", v->pairs}};
+}
+
 Json surfaceJson(const SurfaceReport& s) {
     return {{"method", s.method},
             {"method_requested", s.method_requested},
@@ -171,6 +181,7 @@ Json surfaceJson(const SurfaceReport& s) {
             {"breaklines", s.breaklines},
             {"terrace_edges", edgesJson(s.terrace_edges)},
             {"uncertainty", uncertaintyJson(s.uncertainty)},
+            {"variogram", variogramJson(s.variogram)},
             {"notes", s.notes},
             {"points", s.points},
             {"triangles", s.triangles},

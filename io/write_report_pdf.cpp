@@ -429,11 +429,11 @@ class TablePrinter {
     TablePrinter(Paper& paper, const CPLXMLNode* table) : paper_(paper) {
         // A smaller print where lines would break otherwise, or at least numbers.
         constexpr std::array kSizes{7.5, 7.0, 6.5, 6.0, 5.5};
-        const auto choose = [&](bool (TablePrinter::*breaks)()) {
+        const auto choose = [&](bool (TablePrinter::*too_narrow)()) {
             for (const double size : kSizes) {
                 rows_ = rowsOf(table, size);
                 widths_ = columnWidths(paper, rows_, paper.width());
-                if (!(this->*breaks)()) return true;
+                if (!(this->*too_narrow)()) return true;
             }
             return false;
         };

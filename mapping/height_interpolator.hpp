@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "mapping/variogram.hpp"
 #include "survey/elevation_grid.hpp"
 #include "survey/progress.hpp"
 #include "survey/result.hpp"
@@ -83,6 +84,9 @@ class HeightInterpolator {
     [[nodiscard]] virtual bool hasVariance() const { return false; }
     /// Of a method with a variance that was to be learnt; nothing from fewer than 30 points.
     [[nodiscard]] virtual std::optional<VarianceScale> varianceScale() const { return std::nullopt; }
+    /// Of kriging: what it takes the ground for, with the nugget and the sill that foretell points left out
+    /// best. Nothing of the other methods.
+    [[nodiscard]] virtual std::optional<FittedVariogram> variogram() const { return std::nullopt; }
 
   protected:
     HeightInterpolator() = default;

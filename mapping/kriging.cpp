@@ -4,11 +4,13 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <tuple>
 #include <utility>
 
 #include "mapping/interpolators.hpp"
+#include "mapping/order_statistics.hpp"
 #include "mapping/plan_kd_tree.hpp"
 #include "mapping/variogram.hpp"
 
@@ -21,6 +23,9 @@ constexpr double kLeastNuggetShare = 1e-9;
 
 constexpr std::size_t kLeastPoints = 30;  // fewer teach nothing
 constexpr std::size_t kMostLeftOut = 2000;
+constexpr std::size_t kMostToLearnFrom = 400;
+// Of four: nuggets that are tried, over what the ground differs by at the usual distance from a point.
+constexpr int kLeastNuggetPower = -6, kGreatestNuggetPower = 3;
 constexpr std::size_t kAround = 4;  // times the neighbours: how far about a point left out places may lie
 // A mean square beyond this says that the variogram does not fit at all.
 constexpr double kLeastFactor = 0.05, kGreatestFactor = 20.0;
@@ -64,14 +69,46 @@ std::pair<double, double> learntFactors(const std::vector<LeftOut>& left_out) {
     return {mean * noise, mean * structure};
 }
 
+/// How well variances foretell the errors at points left out: mean of the logarithm of the variance, when all
+/// of them are scaled so that the mean of squared error over variance is one. The smaller the better; twice
+/// the negative logarithm of their normal density but for a constant.
+struct LeftOutScore {
+    double value = std::numeric_limits<double>::infinity();
+    double scale = 1.0;
+};
+
+LeftOutScore scoreOf(const std::vector<LeftOut>& left_out) {
+    double logarithms = 0.0, ratios = 0.0;
+    for (const LeftOut& l : left_out) {
+        const double variance_m2 = l.noise_m2 + l.structure_m2;
+        if (!(variance_m2 > 0.0)) return {};
+        logarithms += std::log(variance_m2);
+        ratios += l.squared_error_m2 / variance_m2;
+    }
+    const auto count = static_cast<double>(left_out.size());
+    const double scale = ratios / count;
+    if (!(scale > 0.0) || !std::isfinite(scale)) return {};
+    return {logarithms / count + std::log(scale), scale};
+}
+
+/// What kriging takes the heights for.
+struct HeightModel {
+    Variogram variogram;
+    bool with_sigmas = true;  ///< a height's own sigma counts where it is above the nugget
+    /// Part of the nugget that is ground too small to be seen between points: no error of the heights.
+    double small_ground_m2 = 0.0;
+};
+
 class Kriging final : public HeightInterpolator {
   public:
     Kriging(PlacedHeights points, std::size_t neighbours)
-        : points_(std::move(points)),
-          tree_(points_.points_m),
-          neighbours_(neighbours),
-          variogram_(fitVariogram(empiricalVariogram(points_.points_m, 4 * neighbours))) {
-        variogram_.nugget_m2 = std::max(variogram_.nugget_m2, kLeastNuggetShare * variogram_.sill_m2);
+        : points_(std::move(points)), tree_(points_.points_m), neighbours_(neighbours) {
+        const std::vector<VariogramClass> classes = empiricalVariogram(points_.points_m, 4 * neighbours);
+        for (const VariogramClass& c : classes) pairs_ += c.pairs;
+        Variogram variogram = fitVariogram(classes);
+        variogram.nugget_m2 = std::max(variogram.nugget_m2, kLeastNuggetShare * variogram.sill_m2);
+        if (points_.points_m.size() >= kLeastPoints) variogram = learntNugget(variogram);
+        model_ = {variogram, true, smallGround_m2(variogram)};
     }
 
     [[nodiscard]] bool hasVariance() const override { return true; }
@@ -81,15 +118,18 @@ class Kriging final : public HeightInterpolator {
         Workspace workspace;
         for (std::size_t i = 0; i < places_m.size(); ++i) {
             tree_.nearest(places_m[i], neighbours_, workspace.near);
-            estimates[i] = estimateAt(workspace);
+            estimates[i] = estimateAt(workspace.near, model_, workspace);
         }
     }
 
     [[nodiscard]] std::optional<VarianceScale> varianceScale() const override { return scale_; }
+    [[nodiscard]] std::optional<FittedVariogram> variogram() const override {
+        return FittedVariogram{model_.variogram, pairs_};
+    }
 
     void learnVariance() {
         if (points_.points_m.size() < kLeastPoints) return;
-        const std::vector<LeftOut> left_out = foretellLeftOut();
+        const std::vector<LeftOut> left_out = foretell(pointsLeftOut(kMostLeftOut), model_);
         VarianceScale scale;
         std::tie(scale.noise, scale.structure) = learntFactors(left_out);
         for (const LeftOut& l : left_out) {
@@ -110,36 +150,84 @@ class Kriging final : public HeightInterpolator {
         double structure_m2 = 0.0;  ///< and the rest of it
     };
 
-    /// Points spread evenly over the list, each foretold from the others.
-    [[nodiscard]] std::vector<LeftOut> foretellLeftOut() const {
-        std::vector<LeftOut> left_out;
-        Workspace w;
+    /// A point, and those that it shall be foretold from, the nearest first.
+    struct PointLeftOut {
+        std::uint32_t point;
+        std::vector<Neighbour> others;
+    };
+
+    /// Points spread evenly over the list.
+    [[nodiscard]] std::vector<PointLeftOut> pointsLeftOut(std::size_t most) const {
+        std::vector<PointLeftOut> left_out;
         std::vector<Neighbour> at_place;
         const std::size_t count = points_.points_m.size();
-        const std::size_t step = (count + kMostLeftOut - 1) / kMostLeftOut;
+        const std::size_t step = (count + most - 1) / most;
         for (std::size_t i = 0; i < count; i += step) {
-            const auto point = static_cast<std::uint32_t>(i);
-            tree_.nearest(points_.points_m[i].head<2>(), kAround * neighbours_, w.near);
-            std::erase_if(w.near, [&](const Neighbour& n) { return n.point == point; });
+            PointLeftOut out{static_cast<std::uint32_t>(i), {}};
+            tree_.nearest(points_.points_m[i].head<2>(), kAround * neighbours_, out.others);
+            std::erase_if(out.others, [&](const Neighbour& n) { return n.point == out.point; });
             // A place that could lie anywhere about here: how far it is from a point, so far a point left out
             // shall be. Points along a track are next to one another, places between two passes are not.
             const Eigen::Vector2d place =
-                0.5 * (points_.points_m[i] + points_.points_m[w.near.back().point]).head<2>();
+                0.5 * (points_.points_m[i] + points_.points_m[out.others.back().point]).head<2>();
             tree_.nearest(place, 1, at_place);
             const double wanted_m = std::sqrt(at_place.front().squared_distance_m2);
             const auto off_m = [&](const Neighbour& n) {
                 return std::abs(std::sqrt(n.squared_distance_m2) - wanted_m);
             };
             const auto first =
-                std::min_element(w.near.begin(), w.near.end(),
+                std::min_element(out.others.begin(), out.others.end(),
                                  [&](const Neighbour& a, const Neighbour& b) { return off_m(a) < off_m(b); });
-            w.near.erase(w.near.begin(), first);
-            if (w.near.size() > neighbours_) w.near.resize(neighbours_);
-            const double error_m = estimateAt(w).height_m - points_.points_m[i].z();
-            left_out.push_back({error_m * error_m, w.noise_m2 + errorVariance_m2(point), w.structure_m2,
-                                std::sqrt(w.near.front().squared_distance_m2)});
+            out.others.erase(out.others.begin(), first);
+            if (out.others.size() > neighbours_) out.others.resize(neighbours_);
+            left_out.push_back(std::move(out));
         }
         return left_out;
+    }
+
+    [[nodiscard]] std::vector<LeftOut> foretell(const std::vector<PointLeftOut>& points,
+                                                const HeightModel& model) const {
+        std::vector<LeftOut> left_out;
+        Workspace w;
+        for (const PointLeftOut& out : points) {
+            const double error_m =
+                estimateAt(out.others, model, w).height_m - points_.points_m[out.point].z();
+            const double own_m2 = errorVariance_m2(out.point, model) - model.small_ground_m2;
+            left_out.push_back({error_m * error_m, w.noise_m2 + own_m2, w.structure_m2,
+                                std::sqrt(out.others.front().squared_distance_m2)});
+        }
+        return left_out;
+    }
+
+    /// Pairs of points tell how the ground goes on far away, but next to a point its slope hides what single
+    /// heights are off by. So the nugget is the one of a row, refined once, that foretells points left out
+    /// best, and the scale of nugget and sill that of their errors. Sigmas have no say: they may be wrong.
+    [[nodiscard]] Variogram learntNugget(const Variogram& shape) const {
+        const std::vector<PointLeftOut> points = pointsLeftOut(kMostToLearnFrom);
+        std::vector<double> distances_m;
+        for (const PointLeftOut& out : points) {
+            distances_m.push_back(std::sqrt(out.others.front().squared_distance_m2));
+        }
+        const double usual_m2 = shape.structureAt(median(std::move(distances_m)));
+        Variogram best = shape;
+        LeftOutScore best_score;
+        const auto attempt = [&](double nugget_m2) {
+            HeightModel tried{shape, false, 0.0};
+            tried.variogram.nugget_m2 = std::max(nugget_m2, kLeastNuggetShare * shape.sill_m2);
+            const LeftOutScore score = scoreOf(foretell(points, tried));
+            if (!(score.value < best_score.value)) return;
+            best = tried.variogram;
+            best_score = score;
+        };
+        attempt(0.0);
+        for (int power = kLeastNuggetPower; power <= kGreatestNuggetPower; ++power) {
+            attempt(usual_m2 * std::pow(4.0, power));
+        }
+        const double coarse_m2 = best.nugget_m2;
+        for (const double factor : {0.5, 2.0}) attempt(factor * coarse_m2);
+        best.nugget_m2 *= best_score.scale;
+        best.sill_m2 *= best_score.scale;
+        return best;
     }
 
     [[nodiscard]] double distance_m(std::uint32_t a, std::uint32_t b) const {
@@ -147,44 +235,54 @@ class Kriging final : public HeightInterpolator {
     }
 
     /// What a height differs from the smooth surface by: the nugget, and its own sigma where it is larger.
-    [[nodiscard]] double errorVariance_m2(std::uint32_t point) const {
-        const double sigma_m = points_.sigmas_m.empty() ? 0.0 : points_.sigmas_m[point];
-        return std::max(variogram_.nugget_m2, sigma_m * sigma_m);
+    [[nodiscard]] double errorVariance_m2(std::uint32_t point, const HeightModel& model) const {
+        const double sigma_m = points_.sigmas_m.empty() || !model.with_sigmas ? 0.0 : points_.sigmas_m[point];
+        return std::max(model.variogram.nugget_m2, sigma_m * sigma_m);
+    }
+
+    /// What of the nugget the sigmas of the heights leave over is ground that is too small to be seen.
+    /// Without sigmas all of it counts as error of the heights.
+    [[nodiscard]] double smallGround_m2(const Variogram& variogram) const {
+        double sum_m2 = 0.0;
+        for (const double sigma_m : points_.sigmas_m) sum_m2 += sigma_m * sigma_m;
+        if (sum_m2 == 0.0) return 0.0;
+        return std::max(0.0, variogram.nugget_m2 - sum_m2 / static_cast<double>(points_.sigmas_m.size()));
     }
 
     /// The smooth surface is estimated, without nugget: a height with an error is not held.
-    [[nodiscard]] HeightEstimate estimateAt(Workspace& w) const {
-        const auto count = static_cast<Eigen::Index>(w.near.size());
+    [[nodiscard]] HeightEstimate estimateAt(const std::vector<Neighbour>& near, const HeightModel& model,
+                                            Workspace& w) const {
+        const auto count = static_cast<Eigen::Index>(near.size());
         w.system.setOnes(count + 1, count + 1);
         w.right.setOnes(count + 1);
         for (Eigen::Index i = 0; i < count; ++i) {
-            const std::uint32_t point = w.near[static_cast<std::size_t>(i)].point;
+            const std::uint32_t point = near[static_cast<std::size_t>(i)].point;
             for (Eigen::Index j = 0; j < i; ++j) {
                 const double structure =
-                    variogram_.structureAt(distance_m(point, w.near[static_cast<std::size_t>(j)].point));
+                    model.variogram.structureAt(distance_m(point, near[static_cast<std::size_t>(j)].point));
                 w.system(i, j) = w.system(j, i) = structure;
             }
-            w.system(i, i) = -errorVariance_m2(point);
+            w.system(i, i) = -errorVariance_m2(point, model);
             w.right[i] =
-                variogram_.structureAt(std::sqrt(w.near[static_cast<std::size_t>(i)].squared_distance_m2));
+                model.variogram.structureAt(std::sqrt(near[static_cast<std::size_t>(i)].squared_distance_m2));
         }
         w.system(count, count) = 0.0;
         w.factor.compute(w.system);
         const Eigen::VectorXd weights = w.factor.solve(w.right);
-        const double base = points_.points_m[w.near.front().point].z();
+        const double base = points_.points_m[near.front().point].z();
         HeightEstimate estimate{base, weights[count]};
         for (Eigen::Index i = 0; i < count; ++i) {
-            const std::uint32_t point = w.near[static_cast<std::size_t>(i)].point;
+            const std::uint32_t point = near[static_cast<std::size_t>(i)].point;
             estimate.height_m += weights[i] * (points_.points_m[point].z() - base);
             estimate.variance_m2 += weights[i] * w.right[i];
         }
         w.noise_m2 = 0.0;
         for (Eigen::Index i = 0; i < count; ++i) {
             w.noise_m2 +=
-                weights[i] * weights[i] * errorVariance_m2(w.near[static_cast<std::size_t>(i)].point);
+                weights[i] * weights[i] * errorVariance_m2(near[static_cast<std::size_t>(i)].point, model);
         }
-        w.structure_m2 = std::max(estimate.variance_m2 - w.noise_m2, 0.0);
-        estimate.variance_m2 = std::max(estimate.variance_m2, 0.0);
+        w.structure_m2 = std::max(estimate.variance_m2 - w.noise_m2, 0.0) + model.small_ground_m2;
+        estimate.variance_m2 = w.noise_m2 + w.structure_m2;
         if (scale_) estimate.variance_m2 = scale_->noise * w.noise_m2 + scale_->structure * w.structure_m2;
         return estimate;
     }
@@ -192,7 +290,8 @@ class Kriging final : public HeightInterpolator {
     PlacedHeights points_;
     PlanKdTree tree_;
     std::size_t neighbours_;
-    Variogram variogram_;
+    std::size_t pairs_ = 0;
+    HeightModel model_;
     std::optional<VarianceScale> scale_;
 };
 

@@ -64,6 +64,18 @@ Residual positionResidual(const MarkStand& stand, const Trajectory& trajectory,
     return residual;
 }
 
+/// Of the difference between a ground point's height and a mark's.
+double sampleSigma(const GroundPoint& point, const ControlMark& mark, const SurfaceHeightAt& surface_height) {
+    if (!surface_height) return kMissing;
+    const auto below = surface_height(point.enu_m), at_mark = surface_height(mark.enu_m);
+    if (!below || !at_mark) return kMissing;
+    const double ground_m = below->height_m - at_mark->height_m;
+    const double plan_m = std::hypot(point.sigma_e_m, point.sigma_n_m) / std::sqrt(2.0);
+    const double slope = std::isfinite(at_mark->slope) ? at_mark->slope : 0.0;
+    const Eigen::Vector4d parts_m(point.sigma_u_m, slope * plan_m, ground_m, mark.sigma_v_m);
+    return parts_m.norm();
+}
+
 /// The nearest point that a mark has met so far.
 struct Nearest {
     double distance_squared_m2 = 0.0;
@@ -144,7 +156,8 @@ MarkResiduals positionResiduals(const Run& run, const std::vector<MarkStand>& st
 
 MarkResiduals nearestSampleResiduals(const Survey& survey, const std::vector<GroundPoint>& points,
                                      Stage stage, const std::set<std::string>& tied_marks,
-                                     const NearestSampleOptions& options) {
+                                     const NearestSampleOptions& options,
+                                     const SurfaceHeightAt& surface_height) {
     const std::vector<Nearest> nearest = nearestPoints(survey.marks, points, options.greatest_distance_m);
     MarkResiduals out;
     for (std::size_t i = 0; i < survey.marks.size(); ++i) {
@@ -157,7 +170,7 @@ MarkResiduals nearestSampleResiduals(const Survey& survey, const std::vector<Gro
         Residual residual = residualAt(mark, stage, Quantity::NearestSample);
         residual.run = survey.runs.at(point->run).id;
         residual.difference_enu_m.z() = point->enu_m.z() - mark.enu_m.z();
-        residual.sigma_enu_m.z() = std::hypot(point->sigma_u_m, mark.sigma_v_m);
+        residual.sigma_enu_m.z() = sampleSigma(*point, mark, surface_height);
         residual.used_by_estimator = tied_marks.contains(mark.name);
         out.residuals.push_back(std::move(residual));
     }
@@ -183,7 +196,7 @@ MarkResiduals surfaceResiduals(const std::vector<ControlMark>& marks, const Surf
                                Stage stage, const std::set<std::string>& tied_marks) {
     MarkResiduals out;
     for (const ControlMark& mark : marks) {
-        const std::optional<SurfaceHeight> surface = surface_height(mark);
+        const std::optional<SurfaceHeight> surface = surface_height(mark.enu_m);
         if (!surface || !std::isfinite(surface->height_m)) {
             out.missing.push_back({stage, Quantity::SurfaceHeight, mark.name, mark.role, {}});
             continue;

@@ -39,26 +39,35 @@ struct MarkResiduals {
                                               const Trajectory& trajectory,
                                               const std::vector<GroundPoint>& points, Stage stage, bool tied);
 
+struct SurfaceHeight {
+    double height_m = kMissing;  ///< in the frame of the place's u
+    double sigma_m = kMissing;   ///< missing where none is predicted
+    double slope = kMissing;     ///< rise over run; missing where it is not known
+};
+/// The surface at a place, local ENU [m]; nothing where there is none.
+using SurfaceHeightAt = std::function<std::optional<SurfaceHeight>(const Eigen::Vector3d& place_enu_m)>;
+
 struct NearestSampleOptions {
     double greatest_distance_m = 3.0;  ///< in plan; farther points say nothing of a mark
 };
 /// Height of the sound ground point (used or thinned) nearest to each mark in plan, the measure of paper 000.
 /// Holds the ground's slope between point and mark, so it is no smaller than the slope times the distance. Of
-/// points equally near the first in (run, epoch) counts. The sigma is that of the point's height and of the
-/// mark. One pass over the points: milliseconds for a million.
+/// points equally near the first in (run, epoch) counts. One pass over the points: milliseconds for a
+/// million.
+///
+///     sigma^2 = sigma_point^2 + (slope sigma_plan)^2 + (surface at the point - surface at the mark)^2 +
+///               sigma_mark^2
+///
+/// as the ground between both is no error of the point, but part of the difference all the same. Missing
+/// where there is no surface at one of them, or none at all.
 /// @param points  of any runs; `run` is an index into survey.runs
+/// @param surface_height  the best that is known of the ground, with its slopes; empty: nothing is
 [[nodiscard]] MarkResiduals nearestSampleResiduals(const Survey& survey,
                                                    const std::vector<GroundPoint>& points, Stage stage,
                                                    const std::set<std::string>& tied_marks,
-                                                   const NearestSampleOptions& options = {});
+                                                   const NearestSampleOptions& options = {},
+                                                   const SurfaceHeightAt& surface_height = {});
 
-struct SurfaceHeight {
-    double height_m = kMissing;  ///< in the frame of the mark's u
-    double sigma_m = kMissing;   ///< missing where none is predicted
-    double slope = kMissing;     ///< rise over run; missing where it is not known
-};
-/// The surface at a mark; nothing where there is none.
-using SurfaceHeightAt = std::function<std::optional<SurfaceHeight>(const ControlMark&)>;
 /// Open when none of at least three hits of the range finder within 1 m of the mark is on something that
 /// stands on the ground, vegetated when one is. Call for points that were cleaned with AboveGroundOptions;
 /// without, no hit says anything.

@@ -18,6 +18,8 @@
 #include <string>
 #include <utility>
 
+#include "mapping/order_statistics.hpp"
+#include "mapping/plan_kd_tree.hpp"
 #include "mapping/point_order.hpp"
 
 namespace terrawalk {
@@ -117,6 +119,27 @@ pcl::Indices statisticalOutliers(const Cloud::Ptr& cloud, const StatisticalOutli
     return outliers;
 }
 
+double spacingRadius_m(const Cloud::Ptr& cloud, int neighbours) {
+    constexpr double kWithoutSpacing_m = 1.0;
+    constexpr double kShare = 0.95, kMultiple = 2.0;
+    constexpr std::size_t kMostPoints = 20'000;
+    const auto wanted = static_cast<std::size_t>(neighbours) + 1;
+    if (cloud->size() < wanted) return kWithoutSpacing_m;
+    pcl::KdTreeFLANN<pcl::PointXYZ> tree(true);
+    tree.setInputCloud(cloud);
+    pcl::Indices found(wanted);
+    std::vector<float> squares_m2(wanted);
+    std::vector<double> distances_m;
+    const std::size_t step = (cloud->size() + kMostPoints - 1) / kMostPoints;
+    for (std::size_t i = 0; i < cloud->size(); i += step) {
+        tree.nearestKSearch((*cloud)[i], static_cast<int>(wanted), found, squares_m2);
+        distances_m.push_back(std::sqrt(double{squares_m2.back()}));
+    }
+    std::sort(distances_m.begin(), distances_m.end());
+    const double usual_m = quantileOfSorted(distances_m, kShare);
+    return usual_m > 0.0 ? kMultiple * usual_m : kWithoutSpacing_m;
+}
+
 /// As pcl::RadiusOutlierRemoval of a cloud without gaps.
 pcl::Indices radiusOutliers(const Cloud::Ptr& cloud, const RadiusOutlierOptions& options, Progress& progress,
                             const std::stop_token& stop) {
@@ -210,7 +233,37 @@ double extentOf(const Cloud& cloud, const pcl::Indices& members) {
     return (greatest - least).norm();
 }
 
-/// Those that belong to nothing as long as a terrace.
+/// Which of the things lie level with ground beside them, as the edge of a terrace does and a plant does not.
+std::vector<char> levelWithGround(const Cloud& cloud, const pcl::Indices& things,
+                                  const AboveGroundOptions& options) {
+    constexpr std::size_t kLeastBeside = 3;
+    constexpr std::size_t kMostBeside = 64;
+    constexpr double kLeastShare = 0.35;  // at an edge half the ground about is level, less what was taken
+    const double reach_m = 2.0 * options.link_m;
+    const pcl::Indices ground = othersThan(things, cloud.size());
+    std::vector<Eigen::Vector3d> places_m;
+    for (const pcl::index_t i : ground) {
+        places_m.push_back(cloud[static_cast<std::size_t>(i)].getVector3fMap().cast<double>());
+    }
+    std::vector<char> level(things.size(), 0);
+    if (places_m.size() < kLeastBeside) return level;
+    const PlanKdTree tree(places_m);
+    std::vector<Neighbour> near;
+    for (std::size_t t = 0; t < things.size(); ++t) {
+        const Eigen::Vector3d at_m =
+            cloud[static_cast<std::size_t>(things[t])].getVector3fMap().cast<double>();
+        tree.nearest(at_m.head<2>(), kMostBeside, near);
+        std::erase_if(near, [&](const Neighbour& n) { return n.squared_distance_m2 > reach_m * reach_m; });
+        const auto at_level = std::count_if(near.begin(), near.end(), [&](const Neighbour& n) {
+            return std::abs(places_m[n.point].z() - at_m.z()) <= 0.5 * options.least_height_m;
+        });
+        const auto least = std::max<double>(kLeastBeside, kLeastShare * static_cast<double>(near.size()));
+        level[t] = static_cast<double>(at_level) >= least ? 1 : 0;
+    }
+    return level;
+}
+
+/// Those that belong to nothing as long as a terrace, nor lie level with the ground beside for the most part.
 pcl::Indices shortThings(const Cloud::Ptr& cloud, const pcl::Indices& things,
                          const AboveGroundOptions& options) {
     if (things.empty() || options.terrace_length_m == 0.0) return things;
@@ -221,9 +274,14 @@ pcl::Indices shortThings(const Cloud::Ptr& cloud, const pcl::Indices& things,
     clusters.setMinClusterSize(1);
     std::vector<pcl::PointIndices> found;
     clusters.extract(found);
+    const std::vector<char> level = levelWithGround(*cloud, things, options);
     pcl::Indices taken;
     for (const pcl::PointIndices& cluster : found) {
         if (extentOf(*part, cluster.indices) >= options.terrace_length_m) continue;
+        const auto on_ground =
+            std::count_if(cluster.indices.begin(), cluster.indices.end(),
+                          [&](pcl::index_t i) { return level[static_cast<std::size_t>(i)] != 0; });
+        if (2 * static_cast<std::size_t>(on_ground) > cluster.indices.size()) continue;
         for (const pcl::index_t i : cluster.indices) taken.push_back(things[static_cast<std::size_t>(i)]);
     }
     return taken;
@@ -240,8 +298,8 @@ Result<void> check(const PointCleaningOptions& options) {
         return usageError("statistical outliers need at least one neighbour and sigmas not below zero");
     }
     const RadiusOutlierOptions& r = options.radius;
-    if (r.use && !(r.radius_m > 0.0 && r.least_neighbours > 0)) {
-        return usageError("radius outliers need a radius above zero and at least one neighbour");
+    if (r.use && !(r.radius_m >= 0.0 && r.least_neighbours > 0)) {
+        return usageError("radius outliers need a radius not below zero and at least one neighbour");
     }
     const AboveGroundOptions& a = options.above_ground;
     const bool sizes =
@@ -257,11 +315,19 @@ Result<void> check(const PointCleaningOptions& options) {
 
 }  // namespace
 
+double isolationRadius_m(const std::vector<GroundPoint>& points, const RadiusOutlierOptions& options) {
+    if (options.radius_m > 0.0) return options.radius_m;
+    return spacingRadius_m(usedPoints(points).cloud, options.least_neighbours);
+}
+
 Result<std::vector<GroundPoint>> cleanGroundPoints(std::vector<GroundPoint> points,
                                                    const PointCleaningOptions& options, Progress& progress,
                                                    std::stop_token stop) {
     if (auto checked = check(options); !checked) return tl::unexpected(checked.error());
     try {
+        RadiusOutlierOptions radius = options.radius;
+        // Before a point is gone, so that everybody who asks is told the same.
+        if (radius.use && !stop.stop_requested()) radius.radius_m = isolationRadius_m(points, radius);
         if (options.statistical.use && !stop.stop_requested()) {
             PartialProgress part(progress, 0.0, 0.2);
             const UsedPoints used = usedPoints(points);
@@ -271,8 +337,7 @@ Result<std::vector<GroundPoint>> cleanGroundPoints(std::vector<GroundPoint> poin
         if (options.radius.use && !stop.stop_requested()) {
             PartialProgress part(progress, 0.2, 0.3);
             const UsedPoints used = usedPoints(points);
-            mark(points, used, radiusOutliers(used.cloud, options.radius, part, stop),
-                 GroundPointState::Isolated);
+            mark(points, used, radiusOutliers(used.cloud, radius, part, stop), GroundPointState::Isolated);
         }
         if (options.above_ground.use && !stop.stop_requested()) {
             progress.report(0.3, "looking for what stands above the ground");

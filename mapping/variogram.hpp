@@ -25,6 +25,12 @@ struct Variogram {
     [[nodiscard]] double structureAt(double distance_m) const;
 };
 
+/// A variogram, and how many pairs of points its form comes from.
+struct FittedVariogram {
+    Variogram variogram;
+    std::size_t pairs = 0;
+};
+
 /// Mean over pairs of points within one class of distance.
 struct VariogramClass {
     double distance_m = 0.0;

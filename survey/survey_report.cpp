@@ -18,6 +18,13 @@ std::string_view name(Stage stage) {
     return "";
 }
 
+std::string inWords(const VariogramSummary& v, std::string_view unit) {
+    const std::string exponent = v.exponent ? fmt::format(" {:.2g}", *v.exponent) : "";
+    return fmt::format(
+        "{}{}, nugget {:.3g} {}\u00b2, sill {:.3g} {}\u00b2 at {:.3g} {}, from {} pairs of points", v.model,
+        exponent, v.nugget_m2, unit, v.sill_m2, unit, v.range_m, unit, v.pairs);
+}
+
 std::string_view name(Quantity quantity) {
     switch (quantity) {
         case Quantity::ArrayPosition:

@@ -207,6 +207,19 @@ struct UncertaintySummary {
     SigmaCoverage left_out;            ///< the points left out against what they taught
 };
 
+/// How kriging takes heights to differ by their distance: a nugget, and a part that rises to the sill.
+/// Lengths in the unit of the points.
+struct VariogramSummary {
+    std::string model;  ///< "power", "spherical", "exponential"
+    double nugget_m2 = 0.0;
+    double sill_m2 = 0.0;  ///< without the nugget; a power passes it at the range
+    double range_m = 0.0;  ///< where a spherical one is at the sill, an exponential one at 95 % of it
+    std::optional<double> exponent;  ///< of a power
+    std::size_t pairs = 0;           ///< of points that its form comes from
+};
+/// @param unit  of the points, e.g. "m"
+[[nodiscard]] std::string inWords(const VariogramSummary& variogram, std::string_view unit);
+
 struct SurfaceReport {
     std::string method;            ///< in words
     std::string method_requested;  ///< as on the command line, or "auto"
@@ -215,6 +228,7 @@ struct SurfaceReport {
     std::size_t breaklines = 0;  ///< that were given
     TerraceEdgeSummary terrace_edges;
     std::optional<UncertaintySummary> uncertainty;
+    std::optional<VariogramSummary> variogram;  ///< of kriging
     std::vector<std::string> notes;
     std::size_t points = 0;
     std::size_t triangles = 0;

@@ -169,8 +169,8 @@ Result<Measured> measure(const Survey& survey, const ComparedMethod& method,
                                            {.greatest_distance_m = config.report.nearest_sample_limit_m}));
     const auto surface = surfaceOf(survey, *track, config.surface, stop);
     if (surface) {
-        const auto height = [&](const ControlMark& mark) -> std::optional<SurfaceHeight> {
-            const auto height_m = surface->heightAt(mark.enu_m.x(), mark.enu_m.y());
+        const auto height = [&](const Eigen::Vector3d& place) -> std::optional<SurfaceHeight> {
+            const auto height_m = surface->heightAt(place.x(), place.y());
             if (!height_m) return std::nullopt;
             return SurfaceHeight{*height_m};
         };

@@ -46,16 +46,21 @@ std::vector<GroundPoint> pointsOfRun(const std::vector<GroundPoint>& points, con
     return {at(track.first_point[run]), at(track.first_point[run + 1])};
 }
 
+std::vector<GroundPoint> ofChosenRuns(const Survey& survey, std::vector<GroundPoint> points,
+                                      const SurfaceOptions& options) {
+    if (options.fixed_point_runs) return points;
+    for (GroundPoint& point : points) {
+        const bool left_out = survey.runs[point.run].kind == RunKind::FixedPoint;
+        if (left_out && point.state == GroundPointState::Used) point.state = GroundPointState::RunLeftOut;
+    }
+    return points;
+}
+
 Result<std::vector<GroundPoint>> surfacePoints(const Survey& survey, std::vector<GroundPoint> points,
                                                const SurfaceOptions& options, Progress& progress,
                                                std::stop_token stop) {
-    if (!options.fixed_point_runs) {
-        for (GroundPoint& point : points) {
-            const bool left_out = survey.runs[point.run].kind == RunKind::FixedPoint;
-            if (left_out && point.state == GroundPointState::Used) point.state = GroundPointState::RunLeftOut;
-        }
-    }
-    auto cleaned = cleanGroundPoints(std::move(points), options.cleaning, progress, stop);
+    auto cleaned =
+        cleanGroundPoints(ofChosenRuns(survey, std::move(points), options), options.cleaning, progress, stop);
     if (!cleaned) return cleaned;
     return thinGroundPoints(std::move(*cleaned), options.thinning_cell_m);
 }

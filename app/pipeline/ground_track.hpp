@@ -38,6 +38,10 @@ struct GroundTrack {
 [[nodiscard]] std::vector<GroundPoint> pointsOfRun(const std::vector<GroundPoint>& points,
                                                    const GroundTrack& track, std::size_t run);
 
+/// All points, used ones of runs that were not asked for as RunLeftOut. Pure.
+[[nodiscard]] std::vector<GroundPoint> ofChosenRuns(const Survey& survey, std::vector<GroundPoint> points,
+                                                    const SurfaceOptions& options);
+
 /// The points that shall carry the surface: of the runs that were asked for, cleaned, one in each cell. What
 /// is left out goes before cells are thinned, so that it stands for no cell. Errors: as cleanGroundPoints().
 [[nodiscard]] Result<std::vector<GroundPoint>> surfacePoints(const Survey& survey,

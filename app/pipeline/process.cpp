@@ -18,6 +18,7 @@
 #include "mapping/gridding.hpp"
 #include "mapping/mark_residuals.hpp"
 #include "mapping/order_statistics.hpp"
+#include "mapping/point_cleaning.hpp"
 #include "mapping/surface_uncertainty.hpp"
 
 namespace terrawalk {
@@ -43,21 +44,6 @@ std::set<std::string> usedMarks(const Survey& survey, const FusionOptions& fusio
         if (mark.role == MarkRole::Control) names.insert(mark.name);
     }
     return names;
-}
-
-/// Positions on marks and nearest samples of one track.
-void compareTrack(const Survey& survey, const GroundTrack& track, const PipelineConfig& config, Stage stage,
-                  bool tied, Comparison& comparison) {
-    for (std::size_t i = 0; i < survey.runs.size(); ++i) {
-        const Run& run = survey.runs[i];
-        comparison.add(positionResiduals(run, markStands(survey, run, config.fusion.stands),
-                                         track.runs[i].trajectory, pointsOfRun(track.points, track, i), stage,
-                                         tied));
-    }
-    const std::set<std::string> tied_marks =
-        tied ? usedMarks(survey, config.fusion) : std::set<std::string>{};
-    comparison.add(nearestSampleResiduals(survey, track.points, stage, tied_marks,
-                                          {.greatest_distance_m = config.report.nearest_sample_limit_m}));
 }
 
 /// What the height of each hit that is used is off by for itself: range and tilt. The track's error, which
@@ -281,22 +267,39 @@ double slopeAt(const SurfaceModel& surface, const Eigen::Vector3d& place) {
     return std::hypot(*east - *west, *north - *south) / (2.0 * kReach_m);
 }
 
-/// Height of the surface at a mark, taken back from the map's height datum to the mark's.
+/// Height of the surface at a place, taken back from the map's height datum to the place's.
 SurfaceHeightAt heightOf(const SurfaceModel& surface, const MapProjection& projection,
                          const GridGeometry* grid = nullptr,
                          const SurfaceUncertainty* uncertainty = nullptr) {
-    return
-        [&surface, &projection, grid, uncertainty](const ControlMark& mark) -> std::optional<SurfaceHeight> {
-            const auto at = projection.toMap(mark.enu_m);
-            if (!at) return std::nullopt;
-            const auto height_m = surface.heightAt(at->x(), at->y());
-            if (!height_m) return std::nullopt;
-            SurfaceHeight height{*height_m - at->z() + mark.enu_m.z()};
-            height.slope = slopeAt(surface, *at);
-            const auto cell = uncertainty != nullptr ? grid->cellAt(at->x(), at->y()) : std::nullopt;
-            if (cell) height.sigma_m = uncertainty->sigmas_m[*cell];
-            return height;
-        };
+    return [&surface, &projection, grid,
+            uncertainty](const Eigen::Vector3d& place) -> std::optional<SurfaceHeight> {
+        const auto at = projection.toMap(place);
+        if (!at) return std::nullopt;
+        const auto height_m = surface.heightAt(at->x(), at->y());
+        if (!height_m) return std::nullopt;
+        SurfaceHeight height{*height_m - at->z() + place.z()};
+        height.slope = slopeAt(surface, *at);
+        const auto cell = uncertainty != nullptr ? grid->cellAt(at->x(), at->y()) : std::nullopt;
+        if (cell) height.sigma_m = uncertainty->sigmas_m[*cell];
+        return height;
+    };
+}
+
+/// Positions on marks and nearest samples of one track.
+/// @param surface_height  what the ground between marks and samples is taken from
+void compareTrack(const Survey& survey, const GroundTrack& track, const PipelineConfig& config,
+                  const SurfaceHeightAt& surface_height, Stage stage, bool tied, Comparison& comparison) {
+    for (std::size_t i = 0; i < survey.runs.size(); ++i) {
+        const Run& run = survey.runs[i];
+        comparison.add(positionResiduals(run, markStands(survey, run, config.fusion.stands),
+                                         track.runs[i].trajectory, pointsOfRun(track.points, track, i), stage,
+                                         tied));
+    }
+    const std::set<std::string> tied_marks =
+        tied ? usedMarks(survey, config.fusion) : std::set<std::string>{};
+    comparison.add(nearestSampleResiduals(survey, track.points, stage, tied_marks,
+                                          {.greatest_distance_m = config.report.nearest_sample_limit_m},
+                                          surface_height));
 }
 
 std::string inWords(const SurfaceModel& surface) {
@@ -321,6 +324,7 @@ SurfaceReport reportSurface(const Surface& surface, const PipelineConfig& config
     report.notes = ground.notes;
     if (!surface.choice.note.empty()) report.notes.push_back(surface.choice.note);
     if (const auto& scale = surface.model.varianceScale()) report.notes.push_back(inWords(*scale));
+    report.variogram = summaryOf(surface.model.variogram());
     report.points = surface.carrying_points;
     report.triangles = ground.mesh.triangles.size();
     report.longest_edge_m = ground.longest_edge_m;
@@ -437,20 +441,22 @@ UncertaintySummary summaryOf(const GridUncertainty& uncertainty) {
 
 /// The sensors as they are against the marks, by the same measures as the fused track and its surface, so
 /// that before and after can be compared.
+/// @param product  the surface after fusion: the best that is known of the ground
 Result<Comparison> compareBeforeFusion(const Survey& survey, const PipelineConfig& config,
-                                       InterpolationMethod method, const MapProjection& projection,
+                                       const SurfaceModel& product, const MapProjection& projection,
                                        Progress& progress, const std::stop_token& stop) {
     FusionOptions as_measured = config.fusion;
     as_measured.method = FusionMethod::Raw;
     const auto track = trackGround(survey, as_measured, config.ground, progress, stop);
     if (!track) return tl::unexpected(track.error());
     Comparison comparison;
-    compareTrack(survey, *track, config, Stage::BeforeFusion, false, comparison);
+    compareTrack(survey, *track, config, heightOf(product, projection), Stage::BeforeFusion, false,
+                 comparison);
     // What the raw track misses says nothing of the product, so it is not told.
     comparison.missing.clear();
     SilentProgress silent;
     SurfaceModelOptions model = modelOptions(config);
-    model.method = method;
+    model.method = product.method();
     model.cross_validate = false;
     const auto surface = makeSurface(survey, *track, config.surface, model, projection, silent, stop);
     if (surface) {
@@ -546,15 +552,18 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     Result<Comparison> comparison;
     if (is_fused) {
         PartialProgress following(progress, 0.7, 0.85);
-        comparison =
-            compareBeforeFusion(survey, config, surface->model.method(), *projection, following, stop);
+        comparison = compareBeforeFusion(survey, config, surface->model, *projection, following, stop);
         if (!comparison) return tl::unexpected(comparison.error());
     }
-    compareTrack(survey, *fused, config, is_fused ? Stage::Fused : Stage::BeforeFusion, tied, *comparison);
+    compareTrack(survey, *fused, config, heightOf(surface->model, *projection),
+                 is_fused ? Stage::Fused : Stage::BeforeFusion, tied, *comparison);
     Products products;
     products.used = config;
     products.used.surface.tin.longest_edge_m = ground.longest_edge_m;
     products.used.surface.method = surface->model.method();
+    if (RadiusOutlierOptions& radius = products.used.surface.cleaning.radius; radius.use) {
+        radius.radius_m = isolationRadius_m(ofChosenRuns(survey, fused->points, config.surface), radius);
+    }
     if (config.surface.cell_m == 0.0) {
         products.used.surface.cell_m = suggestCellSize(ground.area_m2, surface->carrying_points);
     }

@@ -138,7 +138,9 @@ Result<void> cleanInput(const SurfaceRequest& request, double metres_per_unit, S
         points[i].epoch = static_cast<std::uint32_t>(i);
         points[i].enu_m = metres_per_unit * input.points_m[i];
     }
-    auto cleaned = cleanGroundPoints(std::move(points), request.cleaning, progress, stop);
+    RadiusOutlierOptions& radius = report.cleaning.radius;
+    if (radius.use) radius.radius_m = isolationRadius_m(points, radius);
+    auto cleaned = cleanGroundPoints(std::move(points), report.cleaning, progress, stop);
     if (!cleaned) return tl::unexpected(cleaned.error());
     points = thinGroundPoints(std::move(*cleaned), request.thinning_cell_m);
     report.points_left_out = leftOutByReason(points);
@@ -185,12 +187,12 @@ std::string extentText(const TriangleMesh& mesh) {
 /// Points and surface end with this function: writing needs their memory.
 Result<InterpolatedGrid> gridOf(SurfaceInput input, GroundTriangles ground, const GridGeometry& geometry,
                                 InterpolationMethod method, const SurfaceModelOptions& options,
-                                std::vector<std::string>& notes, Progress& progress,
-                                const std::stop_token& stop) {
+                                SurfaceOutcome& report, Progress& progress, const std::stop_token& stop) {
     PartialProgress fitting(progress, 0.0, 0.5), gridding(progress, 0.5, 1.0);
     const auto surface = SurfaceModel::fit(input, std::move(ground), method, options, fitting, stop);
     if (!surface) return tl::unexpected(surface.error());
-    if (const auto& scale = surface->varianceScale()) notes.push_back(inWords(*scale));
+    if (const auto& scale = surface->varianceScale()) report.notes.push_back(inWords(*scale));
+    report.variogram = summaryOf(surface->variogram());
     if (method == InterpolationMethod::Linear) input = {};  // the triangles hold all of it
     return surface->grid(geometry, gridding, stop);
 }
@@ -285,6 +287,36 @@ nlohmann::ordered_json reasonsJson(const std::vector<CountedReason>& reasons) {
     return list;
 }
 
+/// In the unit of the points, or its square.
+nlohmann::ordered_json variogramJson(const VariogramSummary& v) {
+    nlohmann::ordered_json document{
+        {"model", v.model}, {"nugget", v.nugget_m2}, {"sill", v.sill_m2}, {"range", v.range_m}};
+    if (v.exponent) document["exponent"] = *v.exponent;
+    document["pairs"] = v.pairs;
+    return document;
+}
+
+/// The filters in use, in metres.
+nlohmann::ordered_json cleaningJson(const PointCleaningOptions& cleaning) {
+    nlohmann::ordered_json filters = nlohmann::ordered_json::object();
+    if (const StatisticalOutlierOptions& s = cleaning.statistical; s.use) {
+        filters["statistical"] = {{"neighbours", s.neighbours}, {"sigmas", s.sigmas}};
+    }
+    if (const RadiusOutlierOptions& r = cleaning.radius; r.use) {
+        filters["radius"] = {{"radius_m", r.radius_m}, {"least_neighbours", r.least_neighbours}};
+    }
+    if (const AboveGroundOptions& a = cleaning.above_ground; a.use) {
+        filters["above_ground"] = {{"cell_m", a.cell_m},
+                                   {"greatest_window_m", a.greatest_window_m},
+                                   {"slope", a.slope},
+                                   {"least_height_m", a.least_height_m},
+                                   {"greatest_height_m", a.greatest_height_m},
+                                   {"link_m", a.link_m},
+                                   {"terrace_length_m", a.terrace_length_m}};
+    }
+    return filters;
+}
+
 nlohmann::ordered_json validationJson(const CrossValidation& validation) {
     nlohmann::ordered_json results = nlohmann::ordered_json::array();
     for (const HoldOutResult& result : validation.results) {
@@ -343,6 +375,7 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
     if (!points) return tl::unexpected(points.error());
     SurfaceOutcome report;
     report.request = request;
+    report.cleaning = request.cleaning;
     report.notes = points->notes;
     report.points_in_file = points->in_file;
     auto crs = coordinateSystemOf(request, *points, report.notes);
@@ -407,8 +440,8 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
     const std::vector<TerraceEdge> edges = std::move(ground->terrace_edges);
     const std::string covered = extentText(ground->mesh);
     PartialProgress fitting(progress, 0.7, 0.9);
-    auto grid = gridOf(std::move(input), std::move(*ground), *geometry, report.method, model, report.notes,
-                       fitting, stop);
+    auto grid =
+        gridOf(std::move(input), std::move(*ground), *geometry, report.method, model, report, fitting, stop);
     if (!grid) return tl::unexpected(grid.error());
     summarize(grid->heights, report);
     if (report.cells_with_height == 0 && request.extent) {
@@ -435,11 +468,16 @@ std::string toText(const SurfaceOutcome& report) {
     for (const CountedReason& reason : report.points_left_out) {
         text += fmt::format("Left out    {} points: {}\n", reason.count, reason.reason);
     }
+    if (const RadiusOutlierOptions& radius = report.cleaning.radius; radius.use) {
+        text += fmt::format("Isolated    fewer than {} others within {:.3g} m\n", radius.least_neighbours,
+                            radius.radius_m);
+    }
     if (report.terrace_edges.count > 0) {
         text += fmt::format("Edges       {} terrace edges, {:.0f} {} long in all, median step {:.2f} {}\n",
                             report.terrace_edges.count, report.terrace_edges.length_m, unit,
                             report.terrace_edges.median_step_m, unit);
     }
+    if (report.variogram) text += fmt::format("Variogram   {}\n", inWords(*report.variogram, unit));
     if (report.validation) text += validationText(*report.validation, unit);
     for (const std::string& note : report.notes) text += "Note: " + note + "\n";
     for (const fs::path& file : report.files) text += "Written to " + file.string() + "\n";
@@ -458,6 +496,7 @@ std::string toJson(const SurfaceOutcome& report) {
         {"points_in_file", report.points_in_file},
         {"points_used", report.points_used},
         {"points_left_out", reasonsJson(report.points_left_out)},
+        {"cleaning", cleaningJson(report.cleaning)},
         {"breaklines", report.breaklines_used},
         {"terrace_edges",
          {{"requested", name(report.request.model.terrace_edges)},
@@ -485,6 +524,7 @@ std::string toJson(const SurfaceOutcome& report) {
         {"seed", report.request.model.seed},
         {"notes", report.notes},
         {"files", files}};
+    if (report.variogram) document["variogram"] = variogramJson(*report.variogram);
     if (report.validation) document["cross_validation"] = validationJson(*report.validation);
     return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -40,6 +40,7 @@ struct SurfaceOutcome {
     CoordinateSystem crs;
     std::size_t points_in_file = 0;
     std::size_t points_used = 0;
+    PointCleaningOptions cleaning;               ///< as used: with the radius that was found
     std::vector<CountedReason> points_left_out;  ///< by cleaning and thinning
     std::optional<MapPoints> cleaned;            ///< every point, where there was cleaning or thinning
     std::size_t breaklines_used = 0;
@@ -52,6 +53,7 @@ struct SurfaceOutcome {
     double greatest_height = 0.0;
     double memory_need_bytes = 0.0;
     std::optional<CrossValidation> validation;
+    std::optional<VariogramSummary> variogram;  ///< of kriging
     std::vector<std::string> notes;
     std::vector<std::filesystem::path> files;
     std::string points_sha256;

@@ -185,6 +185,10 @@ std::optional<double> SurfaceModel::heightAt(double x_m, double y_m) const {
     return estimate[0].height_m;
 }
 
+std::optional<FittedVariogram> SurfaceModel::variogram() const {
+    return heights_ ? heights_->variogram() : std::nullopt;
+}
+
 Result<InterpolatedGrid> SurfaceModel::grid(const GridGeometry& geometry, Progress& progress,
                                             std::stop_token stop) const {
     PartialProgress masking(progress, 0.0, heights_ ? 0.2 : 1.0);
@@ -193,6 +197,15 @@ Result<InterpolatedGrid> SurfaceModel::grid(const GridGeometry& geometry, Progre
     if (!heights_) return InterpolatedGrid{std::move(*within), {}};
     PartialProgress gridding(progress, 0.2, 1.0);
     return interpolateGrid(*heights_, geometry, within->heights_m, gridding, stop);
+}
+
+std::optional<VariogramSummary> summaryOf(const std::optional<FittedVariogram>& fitted) {
+    if (!fitted) return std::nullopt;
+    const Variogram& v = fitted->variogram;
+    VariogramSummary summary{
+        std::string(name(v.model)), v.nugget_m2, v.sill_m2, v.range_m, {}, fitted->pairs};
+    if (v.model == VariogramModel::Power) summary.exponent = v.exponent;
+    return summary;
 }
 
 TerraceEdgeSummary summaryOf(const std::vector<TerraceEdge>& edges) {

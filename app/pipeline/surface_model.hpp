@@ -99,6 +99,8 @@ class SurfaceModel {
     [[nodiscard]] std::optional<double> heightAt(double x_m, double y_m) const;
     /// Of a method with a variance, which is scaled so.
     [[nodiscard]] const std::optional<VarianceScale>& varianceScale() const { return variance_scale_; }
+    /// Of kriging.
+    [[nodiscard]] std::optional<FittedVariogram> variogram() const;
     /// Cells outside the ground's triangles stay empty.
     [[nodiscard]] Result<InterpolatedGrid> grid(const GridGeometry& geometry, Progress& progress,
                                                 std::stop_token stop) const;
@@ -116,6 +118,7 @@ class SurfaceModel {
 
 /// What the reports say of it.
 [[nodiscard]] std::string inWords(const VarianceScale& scale);
+[[nodiscard]] std::optional<VariogramSummary> summaryOf(const std::optional<FittedVariogram>& fitted);
 [[nodiscard]] TerraceEdgeSummary summaryOf(const std::vector<TerraceEdge>& edges);
 [[nodiscard]] std::optional<InterpolationComparison> comparisonOf(
     const std::optional<CrossValidation>& validation);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -31,15 +30,13 @@ Comparison compareWith(const std::vector<MapMark>& marks, const DemFile& dem,
                        const std::optional<ElevationGrid>& sigmas) {
     const double metres = dem.crs.unit.metres;
     Comparison c;
-    std::map<std::string, Eigen::Vector3d> place;
     for (const MapMark& m : marks) {
         ControlMark mark = m.mark;
         mark.enu_m = metres * m.map;
-        place[mark.name] = m.map;
         c.marks.push_back(std::move(mark));
     }
-    const auto surface = [&](const ControlMark& mark) -> std::optional<SurfaceHeight> {
-        const Eigen::Vector2d at = place.at(mark.name).head<2>();
+    const auto surface = [&](const Eigen::Vector3d& place_m) -> std::optional<SurfaceHeight> {
+        const Eigen::Vector2d at = place_m.head<2>() / metres;
         const auto height = bilinearAt(dem.grid, at);
         if (!height) return std::nullopt;
         const auto sigma = sigmas ? bilinearAt(*sigmas, at) : std::nullopt;

@@ -4781,8 +4781,8 @@
             <translation>剔除周围几乎没有其他点的点</translation>
         </message>
         <message>
-            <source>in which neighbours are counted, in space</source>
-            <translation>在空间中统计邻点的半径</translation>
+            <source>in which neighbours are counted, in space; 0: from the spacing of the points</source>
+            <translation>在空间中统计邻点的半径；0：由点间距得出</translation>
         </message>
         <message>
             <source>that keep a point</source>

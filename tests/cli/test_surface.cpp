@@ -115,12 +115,12 @@ TEST(SurfaceCommand, SaysWhatIsWrong) {
 TEST(SurfaceCommand, NamesTheFilterThatTookAllPoints) {
     const TemporaryFolder scratch;
     std::string text = "x,y,z\n";
-    for (int i = 0; i < 64; ++i) text += fmt::format("{},{},1\n", 20 * (i % 8), 20 * (i / 8));
+    for (int i = 0; i < 2; ++i) text += fmt::format("{},0,1\n", 20 * i);  // too few to tell their spacing
     writeBytes(scratch / "p.csv", text);
     const auto outcome = terrawalk(
         {"surface", (scratch / "p.csv").string(), "-o", (scratch / "dem.tif").string(), "--clean", "radius"});
     EXPECT_EQ(outcome.exit_code, 3);
-    EXPECT_THAT(outcome.err, HasSubstr("isolated: 64"));
+    EXPECT_THAT(outcome.err, HasSubstr("isolated: 2"));
 }
 
 TEST(SurfaceCommand, PointsCannotCertifyTheirOwnDem) {

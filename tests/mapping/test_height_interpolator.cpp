@@ -8,6 +8,7 @@
 #include <cstring>
 #include <functional>
 #include <map>
+#include <random>
 
 #include "mapping/height_interpolator.hpp"
 #include "mapping/plan_kd_tree.hpp"
@@ -292,7 +293,7 @@ TEST(CloughTocher, IsSmoothAcrossEdgesWhereTheTinFolds) {
     EXPECT_LT(greatestBend(Method::CloughTocher, 1e-3), 0.2 * greatestBend(Method::CloughTocher, 1e-2));
 }
 
-TEST(Kriging, HasNoVarianceAtAPointAndMoreFartherAway) {
+TEST(Kriging, HasLittleVarianceAtAPointAndMoreFartherAway) {
     const auto smooth = [](double x, double y) {
         return std::sin(x / 20.0) * std::cos(y / 15.0);
     };
@@ -301,8 +302,8 @@ TEST(Kriging, HasNoVarianceAtAPointAndMoreFartherAway) {
     ASSERT_TRUE(surface);
     EXPECT_TRUE((*surface)->hasVariance());
     const auto found = estimates(**surface, {{20.0, 20.0}, {21.0, 21.0}, {70.0, 70.0}});
-    EXPECT_NEAR(found[0].height_m, smooth(20.0, 20.0), 1e-6);
-    EXPECT_LT(found[0].variance_m2, 0.01 * found[1].variance_m2);
+    EXPECT_NEAR(found[0].height_m, smooth(20.0, 20.0), 1e-4);
+    EXPECT_LT(found[0].variance_m2, 0.2 * found[1].variance_m2);
     EXPECT_LT(found[1].variance_m2, 0.1 * found[2].variance_m2);
     EXPECT_NEAR(found[1].height_m, smooth(21.0, 21.0), 0.01);
 }
@@ -317,8 +318,41 @@ TEST(Kriging, TrustsAHeightTheLessTheGreaterItsSigma) {
     ASSERT_TRUE(held && ignored);
     const Eigen::Vector3d at = points[55];
     const double true_height = at.z() - 1.0;
-    EXPECT_GT(heightAt(**held, at.x(), at.y()) - true_height, 0.3);
+    EXPECT_GT(heightAt(**held, at.x(), at.y()) - true_height, 0.15);
     EXPECT_LT(std::abs(heightAt(**ignored, at.x(), at.y()) - true_height), 0.02);
+}
+
+// The slope hides the noise from pairs of points: only points left out tell it.
+TEST(Kriging, LearnsTheNoiseOfHeightsOnASlope) {
+    constexpr double kNoise_m = 0.05;
+    Points points = squareOfPoints(2000, 41);
+    const auto slope = [](double x, double y) {
+        return 0.3 * x - 0.1 * y;
+    };
+    points = withHeights(std::move(points), slope);
+    std::mt19937_64 engine(42);
+    std::normal_distribution<double> normal(0.0, kNoise_m);
+    for (Eigen::Vector3d& point : points) point.z() += normal(engine);
+    const auto surface = fit(Method::Kriging, points);
+    ASSERT_TRUE(surface);
+    const auto fitted = (*surface)->variogram();
+    ASSERT_TRUE(fitted);
+    EXPECT_GT(fitted->variogram.nugget_m2, 0.5 * kNoise_m * kNoise_m);
+    EXPECT_LT(fitted->variogram.nugget_m2, 2.0 * kNoise_m * kNoise_m);
+    EXPECT_GT(fitted->pairs, 1000u);
+    double squares_m2 = 0.0;
+    std::size_t held = 0;
+    const std::vector<Eigen::Vector2d> places_m = placesIn(10.0, 90.0, 500, 43);
+    const std::vector<HeightEstimate> found = estimates(**surface, places_m);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const double off_m = found[i].height_m - slope(places_m[i].x(), places_m[i].y());
+        squares_m2 += off_m * off_m / static_cast<double>(found.size());
+        held += std::abs(off_m) <= 1.96 * std::sqrt(found[i].variance_m2) ? 1 : 0;
+    }
+    // Sixteen points share in a height; an exact surface would carry the noise of one.
+    EXPECT_LT(std::sqrt(squares_m2), 0.5 * kNoise_m);
+    EXPECT_GT(held, 450u);
+    EXPECT_FALSE((*fit(Method::Linear, points))->variogram());
 }
 
 TEST(Variogram, FindsTheModelThatItsClassesComeFrom) {

@@ -250,6 +250,29 @@ TEST(NearestSample, FlagsMarksToWhichTheEstimatorWasTied) {
     EXPECT_TRUE(out.residuals.at(1).used_by_estimator);
 }
 
+TEST(NearestSample, SigmaHoldsTheGroundBetweenPointAndMark) {
+    const auto hillside = [](const Eigen::Vector3d& place) -> std::optional<SurfaceHeight> {
+        if (place.x() > 100.0) return std::nullopt;
+        return SurfaceHeight{7.0 - 0.5 * place.x(), 0.1, 0.5};
+    };
+    const ControlMark on_slope = mark("K", {2.0, 0, 0});
+    const std::vector<GroundPoint> points{point(1, {1.0, 0, 0.5})};
+    const auto sigma = [&](const ControlMark& m, const SurfaceHeightAt& surface_height) {
+        const auto out =
+            nearestSampleResiduals(surveyWith({m}), points, Stage::Fused, {}, {}, surface_height);
+        return out.residuals.at(0).sigma_enu_m.z();
+    };
+    const double plan_m = std::sqrt(0.5 * (0.4 * 0.4 + 0.5 * 0.5));
+    const double expected_m =
+        std::sqrt(0.3 * 0.3 + std::pow(0.5 * plan_m, 2) + 0.5 * 0.5 + std::pow(on_slope.sigma_v_m, 2));
+    EXPECT_NEAR(sigma(on_slope, hillside), expected_m, 1e-12);
+    EXPECT_TRUE(std::isnan(sigma(on_slope, {}))) << "nothing is known of the ground between";
+    const auto nowhere = [](const Eigen::Vector3d&) {
+        return std::optional<SurfaceHeight>();
+    };
+    EXPECT_TRUE(std::isnan(sigma(on_slope, nowhere)));
+}
+
 TEST(NearestSample, OfNothingIsNothing) {
     EXPECT_THAT(nearestSampleResiduals(surveyWith({}), {point(1, {0, 0, 0})}, Stage::Fused, {}).residuals,
                 IsEmpty());
@@ -260,10 +283,9 @@ TEST(NearestSample, OfNothingIsNothing) {
 // ---------------------------------------------------------------------------------------------- surface
 
 TEST(SurfaceResiduals, AreExactOnAPlaneAndNameMarksOutside) {
-    const auto plane = [](const ControlMark& m) -> std::optional<SurfaceHeight> {
-        if (m.enu_m.x() > 100.0) return std::nullopt;
-        return SurfaceHeight{0.5 * m.enu_m.x() - 0.25 * m.enu_m.y() + 1.0,
-                             m.name == "on" ? kMissing : 0.3};
+    const auto plane = [](const Eigen::Vector3d& place) -> std::optional<SurfaceHeight> {
+        if (place.x() > 100.0) return std::nullopt;
+        return SurfaceHeight{0.5 * place.x() - 0.25 * place.y() + 1.0, place.z() == 1.0 ? kMissing : 0.3};
     };
     const auto out =
         surfaceResiduals({mark("on", {4, 8, 1.0}), mark("below", {4, 8, 0.5}), mark("outside", {200, 0, 0})},
@@ -274,7 +296,8 @@ TEST(SurfaceResiduals, AreExactOnAPlaneAndNameMarksOutside) {
     EXPECT_FALSE(out.residuals[0].used_by_estimator);
     EXPECT_TRUE(out.residuals[1].used_by_estimator);
     EXPECT_TRUE(std::isnan(out.residuals[0].sigma_enu_m.z()));
-    EXPECT_DOUBLE_EQ(out.residuals[1].sigma_enu_m.z(), std::hypot(0.3, mark("", {}).sigma_v_m));
+    EXPECT_DOUBLE_EQ(out.residuals[1].sigma_enu_m.z(),
+                     std::hypot(0.3, mark("", Eigen::Vector3d::Zero()).sigma_v_m));
     ASSERT_EQ(out.missing.size(), 1U);
     EXPECT_EQ(out.missing[0].mark, "outside");
 }

@@ -81,6 +81,33 @@ TEST(PointCleaning, TakesPlantedOutliersAndLittleElse) {
     }
 }
 
+TEST(PointCleaning, IsolationFollowsTheSpacingOfThePoints) {
+    PointCleaningOptions options;
+    options.radius.use = true;
+    for (const double side_m : {6.0, 60.0, 1200.0}) {
+        RandomNumbers random(21);
+        std::vector<GroundPoint> points;
+        for (int i = 0; i < 6000; ++i) {
+            points.push_back(pointAt(random.uniform(0.0, side_m), random.uniform(0.0, side_m), 0.0));
+        }
+        const std::size_t ground = points.size();
+        for (int i = 0; i < 6; ++i) points.push_back(pointAt((2.0 + i) * side_m, 0.0, 0.0));
+        const double radius_m = isolationRadius_m(points, options.radius);
+        EXPECT_NEAR(radius_m, 0.033 * side_m, 0.004 * side_m);
+        const auto cleaned = clean(points, options);
+        ASSERT_TRUE(cleaned);
+        EXPECT_EQ(count(*cleaned, GroundPointState::Isolated), 6U) << side_m;
+        for (std::size_t i = ground; i < points.size(); ++i) {
+            EXPECT_EQ((*cleaned)[i].state, GroundPointState::Isolated);
+        }
+    }
+    options.radius.radius_m = 0.7;
+    EXPECT_EQ(isolationRadius_m({}, options.radius), 0.7);
+    options.radius.radius_m = 0.0;
+    EXPECT_EQ(isolationRadius_m({}, options.radius), 1.0);
+    EXPECT_EQ(isolationRadius_m(std::vector<GroundPoint>(9, pointAt(1, 1, 1)), options.radius), 1.0);
+}
+
 TEST(PointCleaning, TakesHandsAndPlantsOffSlopesAndTerraces) {
     for (const Ground& ground : {Ground(gentleSlope), Ground(terraces)}) {
         std::vector<GroundPoint> points = walkOver(ground, 2);
@@ -123,6 +150,40 @@ TEST(PointCleaning, LeavesTerracesWhereTheFilterAloneWouldNot) {
     bare.above_ground.greatest_window_m = 8.0;
     bare.above_ground.terrace_length_m = 0.0;
     EXPECT_GT(count(*clean(bund, bare), GroundPointState::AboveGround), 100U) << "as published";
+}
+
+// Scattered points, where the upper edge of a wall is broken into things of a few points.
+TEST(PointCleaning, LeavesTheUpperEdgeOfAWallAndTakesWhatGrowsBesideIt) {
+    const auto wall = [](double e_m, double n_m) {
+        return 0.05 * e_m + (n_m > 30.0 ? 1.2 : 0.0);
+    };
+    std::size_t wrong = 0, missed = 0, plants = 0;
+    for (const std::uint64_t seed : {11U, 12U, 13U}) {
+        RandomNumbers random(seed);
+        std::vector<GroundPoint> points;
+        for (int i = 0; i < 6000; ++i) {
+            const double e = random.uniform(0.0, 60.0), n = random.uniform(0.0, 60.0);
+            points.push_back(pointAt(e, n, wall(e, n) + 0.02 * random.normal()));
+        }
+        const std::size_t ground = points.size();
+        for (int i = 0; i < 8; ++i) {
+            const double e = 5.0 + 7.0 * i, n = i % 2 == 0 ? 28.5 : 32.0;
+            for (int hit = 0; hit < 20; ++hit) {
+                const double e_m = e + 0.3 * random.normal(), n_m = n + 0.3 * random.normal();
+                points.push_back(pointAt(e_m, n_m, wall(e_m, n_m) + random.uniform(0.5, 2.5)));
+            }
+        }
+        const auto cleaned = clean(points, aboveGround());
+        ASSERT_TRUE(cleaned) << cleaned.error().message;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const bool taken = (*cleaned)[i].state == GroundPointState::AboveGround;
+            plants += i >= ground;
+            wrong += i < ground && taken;
+            missed += i >= ground && !taken;
+        }
+    }
+    EXPECT_LE(wrong, 20U);
+    EXPECT_LE(missed, plants / 50);
 }
 
 TEST(PointCleaning, DoesNotDependOnOrderOrThreadsAndCanBeTakenBack) {

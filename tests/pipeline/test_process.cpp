@@ -202,6 +202,7 @@ TEST(Process, GridsByTheMethodAskedForAndSaysWhich) {
         EXPECT_THAT(products.report.surface.notes, testing::Contains(told).Times(own_variance ? 1 : 0))
             << text;
         EXPECT_GT(products.report.surface.uncertainty->at_point_m, 0.0) << text;
+        EXPECT_EQ(products.report.surface.variogram.has_value(), own_variance) << text;
     }
     config.surface.method.reset();
     const Products best = processed(s.survey, config);
@@ -245,6 +246,7 @@ TEST(Process, CleansTheGroundPointsWhenAsked) {
     };
     EXPECT_EQ(isolated(processed(s.survey, config)), 0);
     ASSERT_TRUE(applySetting(config, "surface.clean.radius.use=true"));
+    EXPECT_GT(processed(s.survey, config).used.surface.cleaning.radius.radius_m, 0.0) << "by the spacing";
     ASSERT_TRUE(applySetting(config, "surface.clean.radius.radius_m=0.2"));
     ASSERT_TRUE(applySetting(config, "surface.clean.radius.least_neighbours=3"));
     const Products products = processed(s.survey, config);

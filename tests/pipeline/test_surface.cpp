@@ -86,6 +86,14 @@ TEST(Surface, PutsHeightsAndErrorsInOneFileWhereKrigingHasThem) {
     ASSERT_TRUE(kriging) << kriging.error().text();
     ASSERT_THAT(kriging->files, Contains(folder / "dem_multiband.tif"));
     EXPECT_THAT(kriging->notes, Contains(HasSubstr("variance of the method: noise times")));
+    const auto variogram = nlohmann::json::parse(bytesOf(folder / "dem.json")).at("variogram");
+    EXPECT_EQ(variogram.at("model"), kriging->variogram.value().model);
+    EXPECT_GT(variogram.at("nugget").get<double>(), 0.0);
+    EXPECT_GT(variogram.at("sill").get<double>(), 0.0);
+    EXPECT_GT(variogram.at("range").get<double>(), 0.0);
+    EXPECT_GT(variogram.at("pairs").get<std::size_t>(), 100u);
+    EXPECT_THAT(toText(*kriging), HasSubstr("Variogram"));
+    EXPECT_FALSE(linear->variogram);
     // Its first band is the DEM's.
     const auto both = readDem(folder / "dem_multiband.tif", {}), alone = readDem(folder / "dem.tif", {});
     ASSERT_TRUE(both && alone);
@@ -316,6 +324,19 @@ TEST(Surface, CleansAndThinsPointsInTheirOwnUnit) {
     ASSERT_EQ(cleaned->points_left_out.size(), 1u);
     EXPECT_EQ(cleaned->points_left_out.front().reason, "isolated");
     EXPECT_LT(cleaned->greatest_height, 15.0);
+    const auto radiusUsed = [&] {
+        const auto report = nlohmann::json::parse(bytesOf(folder / "dem.json"));
+        return report.at("cleaning").at("radius").at("radius_m").get<double>();
+    };
+    EXPECT_EQ(radiusUsed(), 3.0);
+    request.cleaning.radius.radius_m = 0.0;
+    const auto by_spacing = surfaceOf(request);
+    ASSERT_TRUE(by_spacing);
+    EXPECT_EQ(by_spacing->points_used, 400u);
+    EXPECT_EQ(radiusUsed(), by_spacing->cleaning.radius.radius_m);
+    EXPECT_GT(radiusUsed(), 0.5);  // 400 points in 12 m by 9 m
+    EXPECT_LT(radiusUsed(), 2.0);
+    request.cleaning.radius.radius_m = 3.0;
     ASSERT_THAT(cleaned->files, Contains(folder / "dem_points.csv"));
     const std::string points = bytesOf(folder / "dem_points.csv");
     EXPECT_TRUE(points.starts_with("x_ft,y_ft,z_ft,used,reason\n"));
