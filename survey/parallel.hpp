@@ -81,21 +81,33 @@ void parallelRanges(std::size_t count, std::size_t grain, const Body& body) {
     detail::orderedParts(count, std::max<std::size_t>(1, grain), body);
 }
 
-/// Sorts by `less` in blocks, then merges these. Not stable.
+namespace detail {
+
+/// Quicksort; what few halvings leave is left to the standard library, whatever the pivots were.
+template <class Iterator, class Less>
+void sortBetween(Iterator begin, Iterator end, const Less& less, int halvings) {
+    constexpr std::ptrdiff_t kFew = 2048;
+    if (halvings == 0 || end - begin <= kFew) return std::sort(begin, end, std::ref(less));
+    std::vector<typename Iterator::value_type> sample;
+    for (std::ptrdiff_t i = 0; i < 9; ++i) sample.push_back(begin[(end - begin) / 9 * i]);
+    std::nth_element(sample.begin(), sample.begin() + 4, sample.end(), std::ref(less));
+    const auto middle = std::partition(begin, end, [&](const auto& item) { return less(item, sample[4]); });
+    parallelFor(2, [&](std::size_t half) {
+        if (half == 0) {
+            sortBetween(begin, middle, less, halvings - 1);
+        } else {
+            sortBetween(middle, end, less, halvings - 1);
+        }
+    });
+}
+
+}  // namespace detail
+
+/// Sorts by `less`, as the standard library does; not stable.
 template <class T, class Less>
 void parallelSort(std::vector<T>& items, const Less& less) {
-    constexpr std::size_t kBlocks = 16;
-    const auto bound = [&](std::size_t block) {
-        return items.begin() + static_cast<std::ptrdiff_t>(items.size() * block / kBlocks);
-    };
-    parallelFor(kBlocks, [&](std::size_t b) { std::sort(bound(b), bound(b + 1), std::ref(less)); });
-    for (std::size_t merged = 1; merged < kBlocks; merged *= 2) {
-        parallelFor(kBlocks / (2 * merged), [&](std::size_t pair) {
-            const std::size_t first = 2 * merged * pair;
-            std::inplace_merge(bound(first), bound(first + merged), bound(first + 2 * merged),
-                               std::ref(less));
-        });
-    }
+    constexpr int kHalvings = 12;
+    detail::sortBetween(items.begin(), items.end(), less, kHalvings);
 }
 
 /// As many threads as loops may use here.
