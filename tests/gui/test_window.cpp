@@ -62,14 +62,6 @@ namespace {
 constexpr int kLong_ms = 300000;
 using test::kSlack;
 
-/// With anything to do in the child Qt forks. Without, parent and child share their memory, and the thread
-/// sanitizer takes the one for the other.
-struct Process : QProcess {
-    Process() {
-        setChildProcessModifier([] {});
-    }
-};
-
 QString text(const fs::path& path) {
     return QString::fromStdString(path.string());
 }
@@ -708,7 +700,7 @@ void WindowTest::windowAnswersWhileItWorks() {
 
 void WindowTest::unsavedChangesComeBackAfterTheProcessWasKilled() {
     // Another process does the work of a person, and is killed in the middle of it.
-    Process other;
+    QProcess other;
     QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
     environment.insert("TERRAWALK_TEST_EDIT_AND_WAIT", sample_);
     other.setProcessEnvironment(environment);
@@ -809,7 +801,7 @@ void WindowTest::savedSettingsReplayedByTheCommandLineGiveTheSameBytes() {
     QTRY_VERIFY_WITH_TIMEOUT(exported.count() == 1, kLong_ms);
     const QStringList arguments = session().commandArguments();
     QVERIFY(arguments.contains("--config"));
-    Process command;
+    QProcess command;
     command.start(TERRAWALK_PROGRAM, arguments.mid(1) + QStringList{"-o", scratch_->filePath("command")});
     QVERIFY(command.waitForFinished(kLong_ms));
     QCOMPARE(command.exitCode(), 0);
@@ -853,7 +845,7 @@ void WindowTest::exportDialogRefusesWhatCannotBe() {
     QVERIFY(fs::exists(scratch_->filePath("result-export/ground_points.las").toStdString()));
     // The command that was shown makes the same file.
     const QByteArray all = bytesOf(scratch_->filePath("result-export/ground_points.las"));
-    Process export_command;
+    QProcess export_command;
     export_command.start(TERRAWALK_PROGRAM, QProcess::splitCommand(export_line).mid(1) +
                                                 QStringList{"-o", scratch_->filePath("again"), "-q"});
     QVERIFY(export_command.waitForFinished(kLong_ms));
@@ -1204,7 +1196,7 @@ void WindowTest::settingsTravelThroughAnyFile() {
     action("save_settings_as").trigger();
     QVERIFY(fs::exists(file.toStdString()));
     QVERIFY(window_->isWindowModified());
-    Process command;
+    QProcess command;
     command.start(TERRAWALK_PROGRAM,
                   {"process", sample_, "--config", file, "-o", scratch_->filePath("out"), "-q"});
     QVERIFY(command.waitForFinished(kLong_ms));
