@@ -1,7 +1,6 @@
 #include "fusion/fixed_point_loss.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +13,7 @@
 #include "fusion/filter_family.hpp"
 #include "fusion/positioning_model.hpp"
 #include "survey/mark_stands.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -219,7 +219,7 @@ void FixedPointLoss::errors(std::span<const double> candidates, std::size_t dime
         return prepared_->runs[chosen_[r]];
     };
     if (!hasKernel(prepared_->options.filter)) {
-        tbb::parallel_for(std::size_t{0}, n * runs, [&](std::size_t task) {
+        parallelFor(n * runs, [&](std::size_t task) {
             errors[task] = fullError(run(task % runs), options[task / runs]);
         });
         return;
@@ -229,7 +229,7 @@ void FixedPointLoss::errors(std::span<const double> candidates, std::size_t dime
     const std::size_t groups = (n + lanes - 1) / lanes;
     std::vector<BatchCandidate> batch(n);
     std::transform(options.begin(), options.end(), batch.begin(), batchCandidate);
-    tbb::parallel_for(std::size_t{0}, groups * runs, [&](std::size_t task) {
+    parallelFor(groups * runs, [&](std::size_t task) {
         const std::size_t r = task % runs;
         const std::size_t first = task / runs * lanes;
         const std::size_t count = std::min(lanes, n - first);

@@ -1,7 +1,6 @@
 #include "fusion/fuse_survey.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <atomic>
 #include <cstddef>
@@ -12,6 +11,7 @@
 #include "fusion/crossover_correction.hpp"
 #include "fusion/fuse_run.hpp"
 #include "fusion/joint_adjustment.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -119,7 +119,7 @@ Result<FusedSurvey> fuseSurvey(const Survey& survey, const FusionOptions& option
     const std::size_t n = survey.runs.size();
     std::vector<Result<RunFusion>> fusions(n, cancelled());
     SideBySide parts(survey, progress);
-    tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+    parallelFor(n, [&](std::size_t i) {
         if (stop.stop_requested()) return;
         fusions[i] = fuseRunInFull(survey, survey.runs[i], options, parts.of(i), stop);
     });

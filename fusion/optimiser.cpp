@@ -1,8 +1,6 @@
 #include "fusion/optimiser.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
@@ -14,6 +12,7 @@
 #include "fusion/optimiser_pagmo.hpp"
 #include "fusion/random_numbers.hpp"
 #include "fusion/slime_mould.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -190,10 +189,7 @@ LossFunction perCandidate(std::size_t dimensions, std::function<double(std::span
             }
         };
         if (losses.size() <= grain) return work(0, losses.size());
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, losses.size(), std::max<std::size_t>(1, grain)),
-            [&](const tbb::blocked_range<std::size_t>& range) { work(range.begin(), range.end()); },
-            tbb::simple_partitioner());
+        parallelRanges(losses.size(), grain, work);
     };
 }
 
@@ -244,7 +240,7 @@ Result<OptimiserResult> optimise(const Objective& objective, const SearchBox& bo
         }
         islands[i].evaluator.emplace(objective, box.dimensions(), share, i, recorded, monitor);
     }
-    tbb::parallel_for(std::size_t{0}, islands.size(), [&](std::size_t i) {
+    parallelFor(islands.size(), [&](std::size_t i) {
         search(box, options, scramble({options.seed, i}), islands[i]);
     });
     return outcome(options, islands);

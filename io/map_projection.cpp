@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 #include <proj.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <optional>
+
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -308,8 +308,8 @@ void MapProjection::Impl::project(const Eigen::Vector3d* enu_m, std::size_t coun
         return;
     }
     // map_m first holds longitude, latitude and ellipsoidal height.
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+    parallelRanges(count, 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
             const GeodeticPosition position = frame.toGeodetic(enu_m[i]);
             map_m[i] = {position.lon_deg, position.lat_deg, position.h_ell_m};
         }

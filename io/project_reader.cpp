@@ -1,6 +1,4 @@
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -16,6 +14,7 @@
 #include "io/read_survey.hpp"
 #include "io/survey_format.hpp"
 #include "io/text_input.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -328,24 +327,21 @@ Result<void> readLogs(ProjectFile& project, Progress& progress, const std::stop_
     std::vector<std::optional<Error>> errors(runs.size());
     // Runs after the first bad one need not be read: their errors would not be reported.
     std::atomic<std::size_t> first_bad = runs.size();
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, runs.size(), 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-            for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                if (i > first_bad.load()) return;
-                OneOfMany part(shared);
-                auto log = readArrayLog(files[i], part, stop);
-                if (log) {
-                    runs[i].log = std::move(*log);
-                    continue;
-                }
-                errors[i] = std::move(log.error());
-                for (std::size_t known = first_bad.load();
-                     i < known && !first_bad.compare_exchange_weak(known, i);) {
-                }
+    parallelRanges(runs.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (i > first_bad.load()) return;
+            OneOfMany part(shared);
+            auto log = readArrayLog(files[i], part, stop);
+            if (log) {
+                runs[i].log = std::move(*log);
+                continue;
             }
-        },
-        tbb::simple_partitioner{});
+            errors[i] = std::move(log.error());
+            for (std::size_t known = first_bad.load();
+                 i < known && !first_bad.compare_exchange_weak(known, i);) {
+            }
+        }
+    });
     if (stop.stop_requested()) return cancelled();
     if (first_bad.load() < runs.size()) return tl::unexpected(std::move(*errors[first_bad.load()]));
     return {};

@@ -4,8 +4,6 @@
 #include <gdal_frmts.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +16,7 @@
 #include "io/gdal_support.hpp"
 #include "io/replacing_file.hpp"
 #include "io/write_products.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -36,12 +35,6 @@ void registerDrivers() {
 
 int CPL_STDCALL continueUnlessStopped(double, const char*, void* stop) {
     return static_cast<std::stop_token*>(stop)->stop_requested() ? FALSE : TRUE;
-}
-
-/// As many threads as the program allows oneTBB.
-int threadCount() {
-    const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    return std::max(1, std::min(tbb::this_task_arena::max_concurrency(), static_cast<int>(allowed)));
 }
 
 std::array<double, 6> geotransform(const GridGeometry& geometry) {

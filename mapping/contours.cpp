@@ -1,9 +1,6 @@
 #include "mapping/contours.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +8,9 @@
 #include <cmath>
 #include <cstdint>
 #include <new>
+
+#include "mapping/parallel_sort.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -251,7 +251,7 @@ class Chainer {
     bool sort(const std::stop_token& stop) {
         struct Stopped {};
         try {
-            tbb::parallel_sort(segments_, [&stop](const Segment& a, const Segment& b) {
+            parallelSort(segments_, [&stop](const Segment& a, const Segment& b) {
                 if (stop.stop_requested()) throw Stopped{};
                 return startsBefore(a, b);
             });
@@ -367,7 +367,7 @@ Result<ElevationGrid> gaussianSmoothed(const ElevationGrid& heights, double sigm
     }
     // Weight times height along rows, and the weight itself; then the same along columns.
     std::vector<float> sums(g.size(), 0.0F), parts(g.size(), 0.0F);
-    tbb::parallel_for(std::size_t{0}, g.rows, [&](std::size_t row) {
+    parallelFor(g.rows, [&](std::size_t row) {
         if (stop.stop_requested()) return;
         const auto columns = static_cast<std::ptrdiff_t>(g.columns);
         for (std::ptrdiff_t c = 0; c < columns; ++c) {
@@ -386,7 +386,7 @@ Result<ElevationGrid> gaussianSmoothed(const ElevationGrid& heights, double sigm
         }
     });
     ElevationGrid smooth{g, std::vector<float>(g.size(), kNoHeight)};
-    tbb::parallel_for(std::size_t{0}, g.rows, [&](std::size_t row) {
+    parallelFor(g.rows, [&](std::size_t row) {
         if (stop.stop_requested()) return;
         const auto r = static_cast<std::ptrdiff_t>(row);
         const auto rows = static_cast<std::ptrdiff_t>(g.rows);
@@ -419,17 +419,15 @@ Result<ContourSet> contourLines(const ElevationGrid& heights, const ContourOptio
         const ElevationGrid& smooth = *smoothed;
         std::vector<std::vector<Segment>> by_row(g.rows - 1);
         std::atomic<std::size_t> done{0};
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, g.rows - 1, kRowsAtOnce),
-                          [&](const tbb::blocked_range<std::size_t>& rows) {
-                              if (stop.stop_requested()) return;
-                              for (std::size_t row = rows.begin(); row < rows.end(); ++row) {
-                                  cutRow(smooth, row, options, by_row[row]);
-                              }
-                              done += rows.size();
-                              progress.report(
-                                  0.1 + 0.6 * static_cast<double>(done) / static_cast<double>(g.rows),
-                                  "cutting contours");
-                          });
+        parallelRanges(g.rows - 1, kRowsAtOnce, [&](std::size_t begin, std::size_t end) {
+            if (stop.stop_requested()) return;
+            for (std::size_t row = begin; row < end; ++row) {
+                cutRow(smooth, row, options, by_row[row]);
+            }
+            done += end - begin;
+            progress.report(0.1 + 0.6 * static_cast<double>(done) / static_cast<double>(g.rows),
+                            "cutting contours");
+        });
         if (stop.stop_requested()) return cancelled();
         std::vector<Segment> segments;
         for (std::vector<Segment>& row : by_row) {

@@ -1,7 +1,6 @@
 #include "mapping/cross_validation.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -17,6 +16,7 @@
 #include "mapping/order_statistics.hpp"
 #include "mapping/plan_kd_tree.hpp"
 #include "mapping/point_order.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 namespace {
@@ -221,11 +221,11 @@ Result<HoldOutResult> runHoldOut(HoldOut hold_out, const std::vector<Round>& rou
     std::vector<std::vector<Errors>> errors(rounds.size(), std::vector<Errors>(methods.size()));
     std::vector<std::optional<Error>> failures(rounds.size() * methods.size());
     std::atomic<std::size_t> done = 0;
-    tbb::parallel_for(std::size_t{0}, rounds.size(), [&](std::size_t round) {
+    parallelFor(rounds.size(), [&](std::size_t round) {
         Split split = splitBy(points, rounds[round]);
         failures[round * methods.size()] = followLines(split, breaklines, stop);
         if (failures[round * methods.size()]) return;
-        tbb::parallel_for(std::size_t{0}, methods.size(), [&](std::size_t m) {
+        parallelFor(methods.size(), [&](std::size_t m) {
             if (stop.stop_requested()) return;
             auto found = errorsOf(methods[m], split, interpolation, stop);
             if (found) {

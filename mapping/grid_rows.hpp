@@ -1,13 +1,11 @@
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <atomic>
 #include <stop_token>
 #include <string_view>
 
 #include "survey/elevation_grid.hpp"
+#include "survey/parallel.hpp"
 #include "survey/progress.hpp"
 #include "survey/result.hpp"
 
@@ -21,19 +19,16 @@ Result<ElevationGrid> gridOf(const GridGeometry& geometry, std::string_view step
     constexpr std::size_t kRowsAtOnce = 16;
     ElevationGrid grid{geometry, std::vector<float>(geometry.size(), kNoHeight)};
     std::atomic<std::size_t> rows_done{0};
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, geometry.rows, kRowsAtOnce),
-                      [&](const tbb::blocked_range<std::size_t>& rows) {
-                          if (stop.stop_requested()) return;
-                          for (std::size_t row = rows.begin(); row < rows.end(); ++row) {
-                              for (std::size_t column = 0; column < geometry.columns; ++column) {
-                                  grid.heights_m[row * geometry.columns + column] =
-                                      static_cast<float>(cellValue(row, column));
-                              }
-                          }
-                          rows_done += rows.size();
-                          progress.report(static_cast<double>(rows_done) / static_cast<double>(geometry.rows),
-                                          step);
-                      });
+    parallelRanges(geometry.rows, kRowsAtOnce, [&](std::size_t begin, std::size_t end) {
+        if (stop.stop_requested()) return;
+        for (std::size_t row = begin; row < end; ++row) {
+            for (std::size_t column = 0; column < geometry.columns; ++column) {
+                grid.heights_m[row * geometry.columns + column] = static_cast<float>(cellValue(row, column));
+            }
+        }
+        rows_done += end - begin;
+        progress.report(static_cast<double>(rows_done) / static_cast<double>(geometry.rows), step);
+    });
     if (stop.stop_requested()) return cancelled();
     return grid;
 }

@@ -1,7 +1,6 @@
 #include "mapping/gridding.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +13,8 @@
 #include <optional>
 #include <utility>
 #include <vector>
+
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 namespace {
@@ -93,7 +94,7 @@ struct GridVertex {
 
 std::vector<GridVertex> gridVertices(const TriangleMesh& mesh, const GridGeometry& geometry) {
     std::vector<GridVertex> vertices(mesh.vertices_m.size());
-    tbb::parallel_for(std::size_t{0}, vertices.size(), [&](std::size_t i) {
+    parallelFor(vertices.size(), [&](std::size_t i) {
         const Eigen::Vector3d& vertex = mesh.vertices_m[i];
         vertices[i] = {snapped((vertex.x() - geometry.west_m) / geometry.cell_m - 0.5),
                        snapped((geometry.north_m - vertex.y()) / geometry.cell_m - 0.5), vertex.z()};
@@ -155,8 +156,8 @@ void visitBands(const std::vector<RowRange>& rows, std::size_t rows_per_band, Vi
 
 RowBands rowBands(const TriangleMesh& mesh, const std::vector<GridVertex>& vertices, std::size_t row_count) {
     std::vector<RowRange> rows(mesh.triangles.size());
-    tbb::parallel_for(std::size_t{0}, rows.size(),
-                      [&](std::size_t t) { rows[t] = rowsOf(mesh.triangles[t], vertices, row_count); });
+    parallelFor(rows.size(),
+                [&](std::size_t t) { rows[t] = rowsOf(mesh.triangles[t], vertices, row_count); });
     RowBands bands;
     // Tall triangles in many bands would fill the memory with lists: then higher bands.
     for (;; bands.rows_per_band *= 2) {
@@ -329,7 +330,7 @@ Result<ElevationGrid> rasterize(const TriangleMesh& mesh, const GridGeometry& ge
         const RowBands bands = rowBands(mesh, vertices, geometry.rows);
         const std::size_t band_count = bands.begins.size() - 1;
         std::atomic<std::size_t> bands_done = 0;
-        tbb::parallel_for(std::size_t{0}, band_count, [&](std::size_t band) {
+        parallelFor(band_count, [&](std::size_t band) {
             const RowSpan span{band * bands.rows_per_band,
                                std::min((band + 1) * bands.rows_per_band, geometry.rows)};
             for (std::size_t entry = bands.begins[band]; entry < bands.begins[band + 1]; ++entry) {

@@ -1,7 +1,6 @@
 #include "mapping/height_interpolator.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -10,6 +9,7 @@
 
 #include "mapping/delaunay_tin.hpp"
 #include "mapping/interpolators.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 namespace {
@@ -121,7 +121,7 @@ Result<InterpolatedGrid> interpolateGrid(const HeightInterpolator& surface, cons
         const std::size_t task_count = tasks_per_row * geometry.rows;
         std::atomic<std::size_t> done = 0;
         // One part of one row each: where a walk over the triangles begins does not depend on the threads.
-        tbb::parallel_for(std::size_t{0}, task_count, [&](std::size_t task) {
+        parallelFor(task_count, [&](std::size_t task) {
             if (stop.stop_requested()) return;
             const std::size_t row = task / tasks_per_row;
             const std::size_t first = task % tasks_per_row * kCellsPerTask;

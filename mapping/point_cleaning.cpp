@@ -8,8 +8,6 @@
 #include <pcl/point_types.h>
 #include <pcl/segmentation/extract_clusters.h>
 #include <pcl/segmentation/progressive_morphological_filter.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -21,6 +19,7 @@
 #include "mapping/order_statistics.hpp"
 #include "mapping/plan_kd_tree.hpp"
 #include "mapping/point_order.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 namespace {
@@ -77,16 +76,16 @@ std::vector<Value> ofNeighbours(const Cloud::Ptr& cloud, int neighbours, Say say
     tree.setInputCloud(cloud);
     std::vector<Value> values(cloud->size());
     std::atomic<std::size_t> done = 0;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud->size(), kBlock), [&](const auto& range) {
+    parallelRanges(cloud->size(), kBlock, [&](std::size_t begin, std::size_t end) {
         if (stop.stop_requested()) return;
         // One more, as the point itself is found too.
         pcl::Indices found(static_cast<std::size_t>(neighbours) + 1);
         std::vector<float> squares_m2(found.size());
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+        for (std::size_t i = begin; i < end; ++i) {
             const int count = tree.nearestKSearch((*cloud)[i], neighbours + 1, found, squares_m2);
             values[i] = say(count, squares_m2);
         }
-        progress.report(static_cast<double>(done += range.size()) / static_cast<double>(cloud->size()), step);
+        progress.report(static_cast<double>(done += end - begin) / static_cast<double>(cloud->size()), step);
     });
     return values;
 }
@@ -205,7 +204,7 @@ pcl::Indices narrowThings(const Cloud& cloud, const AboveGroundOptions& options,
     }
     const std::vector<std::pair<std::pair<long, long>, pcl::Indices>> list(squares.begin(), squares.end());
     std::vector<char> above(cloud.size(), 0);
-    tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t s) {
+    parallelFor(list.size(), [&](std::size_t s) {
         if (stop.stop_requested()) return;
         const auto& [at, members] = list[s];
         const auto part = pcl::make_shared<Cloud>(cloud, members);

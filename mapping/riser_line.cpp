@@ -1,7 +1,5 @@
 #include "mapping/riser_line.hpp"
 
-#include <tbb/parallel_invoke.h>
-
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <cmath>
 
 #include "mapping/order_statistics.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 namespace {
@@ -365,8 +364,13 @@ std::optional<RiserPlace> RiserPlaces::nearest(const Vector2d& to_m, double radi
 std::vector<RiserPlace> riserThrough(const RiserSearch& search, const RiserPlace& start,
                                      const RiserPlaces& covered, const std::stop_token& stop) {
     std::vector<RiserPlace> line, ahead;
-    tbb::parallel_invoke([&] { line = follow(search, start, -1, covered, stop); },
-                         [&] { ahead = follow(search, start, 1, covered, stop); });
+    parallelFor(2, [&](std::size_t way) {
+        if (way == 0) {
+            line = follow(search, start, -1, covered, stop);
+        } else {
+            ahead = follow(search, start, 1, covered, stop);
+        }
+    });
     std::reverse(line.begin(), line.end());
     line.push_back(start);
     line.insert(line.end(), ahead.begin(), ahead.end());

@@ -1,7 +1,5 @@
 #include "mapping/surface_uncertainty.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <atomic>
@@ -11,6 +9,7 @@
 
 #include "mapping/plan_kd_tree.hpp"
 #include "mapping/point_order.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -249,7 +248,7 @@ Result<InterpolationErrorModel> learnInterpolationError(InterpolationMethod meth
     for (const double spacings : kBlockSpacings) parts.push_back(partsOf(points, spacings * spacing_m, seed));
     std::vector<Result<std::vector<Foretold>>> found(jobs, std::vector<Foretold>{});
     std::atomic<std::size_t> done{0};
-    tbb::parallel_for(std::size_t{0}, jobs, [&](std::size_t job) {
+    parallelFor(jobs, [&](std::size_t job) {
         if (stop.stop_requested()) {
             found[job] = cancelled();
             return;
@@ -324,7 +323,7 @@ Result<SurfaceUncertainty> surfaceUncertainty(const ElevationGrid& heights,
         result.sources.assign(g.size(), static_cast<std::uint8_t>(CellSource::None));
         const PlanKdTree tree(points_m);
         std::atomic<std::size_t> rows_done{0};
-        tbb::parallel_for(std::size_t{0}, g.rows, [&](std::size_t row) {
+        parallelFor(g.rows, [&](std::size_t row) {
             if (stop.stop_requested()) return;
             std::vector<Neighbour> near;
             std::vector<CarryingPoint> carrying;

@@ -1,7 +1,6 @@
 #include "mapping/terrace_edges.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -15,6 +14,7 @@
 #include "mapping/plan_kd_tree.hpp"
 #include "mapping/point_order.hpp"
 #include "mapping/riser_line.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 namespace {
@@ -95,7 +95,7 @@ Vector2d lowestCorner(const std::vector<Vector3d>& points_m) {
 std::vector<RiserPlace> startsOf(const RiserSearch& search, const std::stop_token& stop) {
     const std::vector<Vector2d> places_m = search.cells.centres();
     std::vector<std::optional<RiserPlace>> seeds(places_m.size());
-    tbb::parallel_for(std::size_t{0}, places_m.size(), [&](std::size_t i) {
+    parallelFor(places_m.size(), [&](std::size_t i) {
         if (!stop.stop_requested()) seeds[i] = clearStepAt(search, places_m[i]);
     });
     std::vector<RiserPlace> starts;

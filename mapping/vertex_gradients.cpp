@@ -1,13 +1,11 @@
 #include "mapping/vertex_gradients.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 namespace {
@@ -164,16 +162,13 @@ VertexGradients vertexGradients(const TriangleWalk& walk, const std::vector<std:
     const SectorWalk sectors(walk, breaks);
     const std::vector<SectorStart> found = sectorsOf(sectors, walk, result.of_corner);
     result.gradients.resize(found.size());
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, found.size(), kVerticesPerTask),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-            if (stop.stop_requested()) return;
-            for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                const Sector sector = sectors.sectorFrom(found[i].triangle, found[i].vertex);
-                result.gradients[i] = gradientOf(walk.mesh(), sector.vertex, sectors.neighbours(sector));
-            }
-        },
-        tbb::simple_partitioner{});
+    parallelRanges(found.size(), kVerticesPerTask, [&](std::size_t begin, std::size_t end) {
+        if (stop.stop_requested()) return;
+        for (std::size_t i = begin; i < end; ++i) {
+            const Sector sector = sectors.sectorFrom(found[i].triangle, found[i].vertex);
+            result.gradients[i] = gradientOf(walk.mesh(), sector.vertex, sectors.neighbours(sector));
+        }
+    });
     return result;
 }
 

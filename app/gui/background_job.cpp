@@ -1,6 +1,5 @@
 #include "app/gui/background_job.hpp"
 
-#include <QMetaObject>
 #include <algorithm>
 #include <chrono>
 #include <exception>
@@ -15,7 +14,7 @@ namespace {
 /// Takes reports from any thread to the window's, a few each second.
 class QueuedProgress final : public Progress {
   public:
-    explicit QueuedProgress(BackgroundJob& job) : job_(job) {}
+    QueuedProgress(BackgroundJob& job, Mailbox& mailbox) : job_(job), mailbox_(mailbox) {}
 
     void report(double fraction, std::string_view step) override {
         const std::lock_guard lock(mutex_);
@@ -28,20 +27,19 @@ class QueuedProgress final : public Progress {
         const bool known = elapsed_s > 1.0 && furthest_ > 0.05;
         const double left_s = known ? elapsed_s * (1.0 - furthest_) / furthest_ : -1.0;
         const QString text = QString::fromUtf8(step.data(), static_cast<qsizetype>(step.size()));
-        QMetaObject::invokeMethod(
-            &job_, [job = &job_, f = furthest_, text, left_s] { Q_EMIT job->progressed(f, text, left_s); },
-            Qt::QueuedConnection);
+        mailbox_.post(
+            [job = &job_, f = furthest_, text, left_s] { Q_EMIT job->progressed(f, text, left_s); });
     }
 
     void message(Severity severity, std::string_view text) override {
         const QString copy = QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
-        QMetaObject::invokeMethod(
-            &job_, [job = &job_, severity, copy] { Q_EMIT job->told(severity, copy); }, Qt::QueuedConnection);
+        mailbox_.post([job = &job_, severity, copy] { Q_EMIT job->told(severity, copy); });
     }
 
   private:
     using Clock = std::chrono::steady_clock;
     BackgroundJob& job_;
+    Mailbox& mailbox_;
     std::mutex mutex_;
     const Clock::time_point start_ = Clock::now();
     Clock::time_point last_told_{};
@@ -61,7 +59,7 @@ void BackgroundJob::start(Work work) {
     running_ = true;
     Q_EMIT runningChanged(true);
     thread_ = std::jthread([this, work = std::move(work)](const std::stop_token& stop) {
-        QueuedProgress progress(*this);
+        QueuedProgress progress(*this, mailbox_);
         Delivery delivery;
         try {
             delivery = work(progress, stop);
@@ -70,8 +68,7 @@ void BackgroundJob::start(Work work) {
         }
         // Outcomes are large: shared, so that the queue copies none of them.
         const auto outcome = std::make_shared<const Delivery>(std::move(delivery));
-        QMetaObject::invokeMethod(
-            this, [this, outcome] { finish(*outcome); }, Qt::QueuedConnection);
+        mailbox_.post([this, outcome] { finish(*outcome); });
     });
 }
 

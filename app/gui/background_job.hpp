@@ -6,6 +6,7 @@
 #include <stop_token>
 #include <thread>
 
+#include "app/gui/background.hpp"
 #include "survey/progress.hpp"
 
 namespace terrawalk::gui {
@@ -36,7 +37,8 @@ class BackgroundJob : public QObject {
 
   private:
     void finish(const Delivery& delivery);
-    std::jthread thread_;
+    Mailbox mailbox_;
+    std::jthread thread_;  // ends before the mailbox that it writes to
     bool running_ = false;
 };
 

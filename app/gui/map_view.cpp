@@ -4,11 +4,9 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QWheelEvent>
-#include <QtConcurrent>
 #include <cmath>
 #include <utility>
 
-#include "app/gui/background.hpp"
 #include "app/gui/figures.hpp"
 #include "app/gui/map_furniture.hpp"
 #include "app/gui/round_numbers.hpp"
@@ -71,30 +69,8 @@ MapView::MapView(ViewState& state, Selection& selection, QWidget* parent)
     setMinimumSize(320, 240);
     setCursor(Qt::CrossCursor);
     setAccessibleName(tr("Map"));
-    connect(&layer_watcher_, &QFutureWatcherBase::finished, this, [this] {
-        if (layer_watcher_.future().resultCount() == 0) return;
-        scene_.raster = layer_watcher_.result();
-        update();
-        Q_EMIT layerShown();
-    });
-    connect(&contour_watcher_, &QFutureWatcherBase::finished, this, [this] {
-        if (contour_watcher_.future().resultCount() == 0) return;
-        scene_.contours = contour_watcher_.result();
-        update();
-    });
-    connect(&line_watcher_, &QFutureWatcherBase::finished, this, [this] {
-        if (line_watcher_.future().resultCount() == 0) return;
-        lines_ = line_watcher_.result();
-        update();
-    });
     connect(&state_, &ViewState::changed, this, &MapView::followState);
     connect(&selection_, &Selection::changed, this, &MapView::followSelection);
-}
-
-MapView::~MapView() {
-    layer_watcher_.waitForFinished();
-    contour_watcher_.waitForFinished();
-    line_watcher_.waitForFinished();
 }
 
 void MapView::show(std::shared_ptr<const SurveyMap> survey, std::shared_ptr<const Products> products) {
@@ -110,8 +86,24 @@ void MapView::show(std::shared_ptr<const SurveyMap> survey, std::shared_ptr<cons
     update();
 }
 
+void MapView::takeLayer(std::shared_ptr<const RasterPicture> raster) {
+    scene_.raster = std::move(raster);
+    update();
+    Q_EMIT layerShown();
+}
+
+void MapView::takeContours(std::shared_ptr<const std::vector<Contour>> contours) {
+    scene_.contours = std::move(contours);
+    update();
+}
+
+void MapView::takeLines(LinePicture lines) {
+    lines_ = std::move(lines);
+    update();
+}
+
 bool MapView::preparing() const {
-    return layer_watcher_.isRunning() || contour_watcher_.isRunning() || line_watcher_.isRunning() ||
+    return layer_beside_.running() || contours_beside_.running() || lines_beside_.running() ||
            (isVisible() && scene_.survey && !linesCurrent());
 }
 
@@ -119,28 +111,27 @@ void MapView::colourLayer() {
     scene_.raster.reset();
     update();
     if (!scene_.products) {
-        layer_watcher_.setFuture({});
+        layer_beside_.drop();
         return;
     }
-    layer_watcher_.setFuture(
-        QtConcurrent::run(backgroundPool(), [products = scene_.products, shown = scene_.shown] {
-            return std::make_shared<const RasterPicture>(
-                rasterPicture(*products, shown.layer, shown.change.get()));
-        }));
+    layer_beside_.start([products = scene_.products, shown = scene_.shown] {
+        return std::make_shared<const RasterPicture>(
+            rasterPicture(*products, shown.layer, shown.change.get()));
+    });
 }
 
 void MapView::makeContours() {
     scene_.contours.reset();
     if (!scene_.products || !scene_.shown.contours) {
-        contour_watcher_.setFuture({});
+        contours_beside_.drop();
         return;
     }
-    contour_watcher_.setFuture(QtConcurrent::run(backgroundPool(), [products = scene_.products] {
+    contours_beside_.start([products = scene_.products] {
         SilentProgress silent;
         auto lines = surfaceContours(*products, contourInterval(*products), silent, {});
         return std::make_shared<const std::vector<Contour>>(lines ? std::move(*lines)
                                                                   : std::vector<Contour>());
-    }));
+    });
 }
 
 void MapView::followState() {
@@ -226,22 +217,21 @@ void MapView::paintLines(QPainter& painter) {
 
 void MapView::drawLinesBeside() {
     // One at a time; when it has come, the next paint sees whether another is needed.
-    if (line_watcher_.isRunning()) return;
-    line_watcher_.setFuture(
-        QtConcurrent::run(backgroundPool(), [scene = scene_, transform = transform_, palette = palette(),
-                                             font = font(), ratio = devicePixelRatioF()] {
-            QImage image((transform.size_px * ratio).toSize(), QImage::Format_ARGB32_Premultiplied);
-            image.setDevicePixelRatio(ratio);
-            image.fill(Qt::transparent);
-            QPainter painter(&image);
-            painter.setFont(font);
-            drawContours(painter, scene, transform, palette);
-            drawTerraceEdges(painter, scene, transform);
-            drawPoints(painter, scene, transform);
-            drawTracks(painter, scene, transform);
-            painter.end();
-            return LinePicture{scene, transform, palette, image};
-        }));
+    if (lines_beside_.running()) return;
+    lines_beside_.start([scene = scene_, transform = transform_, palette = palette(), font = font(),
+                         ratio = devicePixelRatioF()] {
+        QImage image((transform.size_px * ratio).toSize(), QImage::Format_ARGB32_Premultiplied);
+        image.setDevicePixelRatio(ratio);
+        image.fill(Qt::transparent);
+        QPainter painter(&image);
+        painter.setFont(font);
+        drawContours(painter, scene, transform, palette);
+        drawTerraceEdges(painter, scene, transform);
+        drawPoints(painter, scene, transform);
+        drawTracks(painter, scene, transform);
+        painter.end();
+        return LinePicture{scene, transform, palette, image};
+    });
 }
 
 void MapView::resizeEvent(QResizeEvent*) {

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <QFutureWatcher>
 #include <QImage>
 #include <QPalette>
 #include <QWidget>
 #include <memory>
 #include <optional>
 
+#include "app/gui/background.hpp"
 #include "app/gui/map_scene.hpp"
 #include "app/gui/map_transform.hpp"
 #include "app/gui/raster_picture.hpp"
@@ -35,7 +35,6 @@ class MapView : public QWidget {
   public:
     /// Both must outlive the view.
     MapView(ViewState& state, Selection& selection, QWidget* parent = nullptr);
-    ~MapView() override;
 
     /// Shows a survey, and results where there are some; where the place is another, all of it comes in view.
     void show(std::shared_ptr<const SurveyMap> survey, std::shared_ptr<const Products> products);
@@ -88,6 +87,17 @@ class MapView : public QWidget {
     void moveKeyCursor(QPointF by_px);
     void showSketch(std::optional<QPointF> cursor_px);
     void finishLine();
+    /// Contours, edges, points and tracks as they lie on the screen: thousands of smooth lines take longer
+    /// than the window may be deaf.
+    struct LinePicture {
+        MapScene scene;
+        MapTransform transform;
+        QPalette palette;
+        QImage image;
+    };
+    void takeLayer(std::shared_ptr<const RasterPicture> raster);
+    void takeContours(std::shared_ptr<const std::vector<Contour>> contours);
+    void takeLines(LinePicture lines);
     [[nodiscard]] bool selects() const {
         return tool_ == MapTool::SelectStretch || tool_ == MapTool::SelectArea;
     }
@@ -99,18 +109,18 @@ class MapView : public QWidget {
     MapScene scene_;
     MapTransform transform_;
     MapTool tool_ = MapTool::Pan;
-    QFutureWatcher<std::shared_ptr<const RasterPicture>> layer_watcher_;
-    QFutureWatcher<std::shared_ptr<const std::vector<Contour>>> contour_watcher_;
-    /// Contours, edges, points and tracks as they lie on the screen: thousands of smooth lines take longer
-    /// than the window may be deaf.
-    struct LinePicture {
-        MapScene scene;
-        MapTransform transform;
-        QPalette palette;
-        QImage image;
-    };
+    Background<std::shared_ptr<const RasterPicture>> layer_beside_{
+        [this](std::shared_ptr<const RasterPicture> raster) {
+            takeLayer(std::move(raster));
+        }};
+    Background<std::shared_ptr<const std::vector<Contour>>> contours_beside_{
+        [this](std::shared_ptr<const std::vector<Contour>> contours) {
+            takeContours(std::move(contours));
+        }};
     LinePicture lines_;
-    QFutureWatcher<LinePicture> line_watcher_;
+    Background<LinePicture> lines_beside_{[this](LinePicture lines) {
+        takeLines(std::move(lines));
+    }};
     std::optional<QPointF> pressed_at_;
     std::optional<QPointF> dragged_from_;
     std::optional<TrackHit> stretch_from_;

@@ -18,10 +18,8 @@
 #include <QTableWidget>
 #include <QUrl>
 #include <QVBoxLayout>
-#include <QtConcurrent>
 #include <cmath>
 
-#include "app/gui/background.hpp"
 #include "app/gui/recent_surveys.hpp"
 #include "app/gui/report_words.hpp"
 #include "app/gui/tables.hpp"
@@ -128,20 +126,11 @@ NewSurveyDialog::NewSurveyDialog(QWidget* parent) : QDialog(parent) {
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(buttons, &QDialogButtonBox::accepted, this, &NewSurveyDialog::create);
     column->addWidget(buttons);
-    connect(&watcher_, &QFutureWatcherBase::finished, this, [this] {
-        if (watcher_.future().resultCount() == 0) return;
-        reading_ = false;
-        const auto read = watcher_.result();
-        if (read) takeDraft(*read);
-        check();
-        if (!read) problem_->setText(errorWords(read.error()));
-    });
     check();
 }
 
 NewSurveyDialog::~NewSurveyDialog() {
     stop_.request_stop();
-    watcher_.waitForFinished();
 }
 
 void NewSurveyDialog::buildTable() {
@@ -226,11 +215,18 @@ void NewSurveyDialog::readFiles() {
     reading_ = true;
     NewSurveyRequest request;
     request.files = files_;
-    watcher_.setFuture(QtConcurrent::run(backgroundPool(), [request, stop = stop_.get_token()] {
+    draft_beside_.start([request, stop = stop_.get_token()] {
         SilentProgress silent;
         return draftSurvey(request, silent, stop);
-    }));
+    });
     check();
+}
+
+void NewSurveyDialog::takeRead(Result<SurveyDraft> read) {
+    reading_ = false;
+    if (read) takeDraft(std::move(*read));
+    check();
+    if (!read) problem_->setText(errorWords(read.error()));
 }
 
 void NewSurveyDialog::takeDraft(SurveyDraft draft) {

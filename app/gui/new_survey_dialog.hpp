@@ -1,13 +1,13 @@
 #pragma once
 
 #include <QDialog>
-#include <QFutureWatcher>
 #include <QStringList>
 #include <filesystem>
 #include <functional>
 #include <set>
 #include <stop_token>
 
+#include "app/gui/background.hpp"
 #include "app/pipeline/new_survey_job.hpp"
 
 class QCheckBox;
@@ -54,6 +54,7 @@ class NewSurveyDialog : public QDialog {
     void buildTable();
     QWidget* buildFields();
     void readFiles();
+    void takeRead(Result<SurveyDraft> read);
     void takeDraft(SurveyDraft draft);
     void fillTable();
     void fillRow(int row, std::size_t run);
@@ -67,7 +68,9 @@ class NewSurveyDialog : public QDialog {
     void create();
     [[nodiscard]] QString problem();
 
-    QFutureWatcher<Result<SurveyDraft>> watcher_;
+    Background<Result<SurveyDraft>> draft_beside_{[this](Result<SurveyDraft> read) {
+        takeRead(std::move(read));
+    }};
     std::stop_source stop_;
     std::vector<std::filesystem::path> files_;
     SurveyDraft draft_;

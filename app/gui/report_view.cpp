@@ -14,10 +14,8 @@
 #include <QScrollArea>
 #include <QToolBar>
 #include <QVBoxLayout>
-#include <QtConcurrent>
 #include <algorithm>
 
-#include "app/gui/background.hpp"
 #include "app/gui/recent_surveys.hpp"
 #include "app/gui/report_words.hpp"
 #include "app/gui/theme.hpp"
@@ -66,15 +64,8 @@ ReportView::ReportView(QWidget* parent) : QWidget(parent) {
     resized_.setSingleShot(true);
     resized_.setInterval(120);
     connect(&resized_, &QTimer::timeout, this, &ReportView::layOut);
-    connect(&watcher_, &QFutureWatcherBase::finished, this, [this] {
-        if (watcher_.future().resultCount() > 0) take(watcher_.result());
-    });
     themeChanged();
     show(nullptr, nullptr);
-}
-
-ReportView::~ReportView() {
-    watcher_.waitForFinished();
 }
 
 void ReportView::themeChanged() {
@@ -100,18 +91,17 @@ void ReportView::make() {
     if (!products_) return;
     current_ = true;
     const QString file = folder_.filePath("report.pdf");
-    watcher_.setFuture(
-        QtConcurrent::run(backgroundPool(), [survey = survey_, products = products_, file]() -> Made {
-            if (const auto written = writeReport(*survey, *products, file.toStdString()); !written) {
-                return {{}, errorWords(written.error()), {}};
-            }
-            const auto document = opened(file);
-            if (!document) return {{}, tr("The report cannot be drawn."), {}};
-            Made made{file, {}, {}};
-            for (int page = 0; page < document->numPages(); ++page)
-                made.pages.push_back(drawn(*document, page, kScreen_dpi));
-            return made;
-        }));
+    pages_beside_.start([survey = survey_, products = products_, file]() -> Made {
+        if (const auto written = writeReport(*survey, *products, file.toStdString()); !written) {
+            return {{}, errorWords(written.error()), {}};
+        }
+        const auto document = opened(file);
+        if (!document) return {{}, tr("The report cannot be drawn."), {}};
+        Made made{file, {}, {}};
+        for (int page = 0; page < document->numPages(); ++page)
+            made.pages.push_back(drawn(*document, page, kScreen_dpi));
+        return made;
+    });
     layOut();
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <QFutureWatcher>
 #include <QImage>
 #include <QTemporaryDir>
 #include <QTimer>
@@ -8,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "app/gui/background.hpp"
 #include "app/pipeline/process.hpp"
 
 class QAction;
@@ -24,12 +24,11 @@ class ReportView : public QWidget {
     Q_OBJECT
   public:
     explicit ReportView(QWidget* parent = nullptr);
-    ~ReportView() override;
     void show(std::shared_ptr<const Survey> survey, std::shared_ptr<const Products> products);
     using QWidget::show;
     void themeChanged();
     /// Whether the report is being made or drawn.
-    [[nodiscard]] bool preparing() const { return watcher_.isRunning(); }
+    [[nodiscard]] bool preparing() const { return pages_beside_.running(); }
     [[nodiscard]] std::size_t pages() const { return pages_.size(); }
     /// Empty before it is made.
     [[nodiscard]] const QString& file() const { return file_; }
@@ -62,7 +61,9 @@ class ReportView : public QWidget {
     QTemporaryDir folder_;
     QString file_;
     std::vector<QImage> pages_;
-    QFutureWatcher<Made> watcher_;
+    Background<Made> pages_beside_{[this](Made made) {
+        take(made);
+    }};
     QTimer resized_;
     QToolBar* bar_ = nullptr;
     QAction* save_ = nullptr;

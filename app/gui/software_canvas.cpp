@@ -1,8 +1,6 @@
 #include <QElapsedTimer>
-#include <QFutureWatcher>
 #include <QPainter>
 #include <QPointer>
-#include <QtConcurrent>
 #include <cstdint>
 
 #include "app/gui/background.hpp"
@@ -36,12 +34,9 @@ class SoftwareCanvas final : public TerrainCanvas {
         widget_->paint = [this](QPainter& painter) {
             paintOn(painter);
         };
-        QObject::connect(&watcher_, &QFutureWatcherBase::finished, &watcher_, [this] {
-            if (watcher_.future().resultCount() > 0) take(watcher_.result());
-        });
     }
     ~SoftwareCanvas() override {
-        watcher_.waitForFinished();
+        picture_beside_.wait();
         delete widget_.data();
     }
     QWidget* widget() override { return widget_; }
@@ -51,7 +46,7 @@ class SoftwareCanvas final : public TerrainCanvas {
         start();
     }
     QImage picture() override {
-        watcher_.waitForFinished();
+        picture_beside_.wait();
         Picture made = draw(frame_, size(), wanted_);
         while (!made.complete) made = draw(frame_, size(), wanted_);
         QImage image = made.image;
@@ -80,12 +75,11 @@ class SoftwareCanvas final : public TerrainCanvas {
         if (asked_for_ != size()) start();
     }
     void start() {
-        if (watcher_.isRunning() || size().isEmpty()) return;
+        if (picture_beside_.running() || size().isEmpty()) return;
         asked_for_ = size();
-        watcher_.setFuture(
-            QtConcurrent::run(backgroundPool(), [this, frame = frame_, size = asked_for_, number = wanted_] {
-                return draw(frame, size, number);
-            }));
+        picture_beside_.start([this, frame = frame_, size = asked_for_, number = wanted_] {
+            return draw(frame, size, number);
+        });
     }
     void take(const Picture& made) {
         image_ = made.image;
@@ -124,7 +118,9 @@ class SoftwareCanvas final : public TerrainCanvas {
     FrameBudget moving_{40.0};
     BlockStore store_;
     std::shared_ptr<const TerrainScene> store_scene_;
-    QFutureWatcher<Picture> watcher_;
+    Background<Picture> picture_beside_{[this](Picture made) {
+        take(made);
+    }};
 };
 
 }  // namespace

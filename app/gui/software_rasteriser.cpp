@@ -1,10 +1,11 @@
 #include "app/gui/software_rasteriser.hpp"
 
 #include <Eigen/Geometry>
-#include <QtConcurrent>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "survey/parallel.hpp"
 
 namespace terrawalk::gui {
 
@@ -236,9 +237,7 @@ void drawGround(Canvas& canvas, const TerrainFrame& frame, const std::vector<Blo
                 const Lens& lens, int scale) {
     const Shader shader(frame);
     std::vector<std::vector<ScreenVertex>> seen(blocks.size());
-    QList<std::size_t> numbers;
-    for (std::size_t i = 0; i < blocks.size(); ++i) numbers << i;
-    QtConcurrent::blockingMap(numbers, [&](std::size_t i) {
+    parallelFor(blocks.size(), [&](std::size_t i) {
         seen[i].reserve(blocks[i].block->vertices.size());
         for (const TerrainVertex& v : blocks[i].block->vertices) seen[i].push_back(shader(v, lens));
     });
@@ -253,10 +252,10 @@ void drawGround(Canvas& canvas, const TerrainFrame& frame, const std::vector<Blo
             spans[i] = {std::min(spans[i].top, v.y), std::max(spans[i].bottom, v.y)};
         }
     }
-    QList<int> bands;
-    for (int row = 0; row < canvas.height; row += kBandRows) bands << row;
     const float line_px = static_cast<float>(scale);
-    QtConcurrent::blockingMap(bands, [&](int row) {
+    const auto bands = static_cast<std::size_t>((canvas.height + kBandRows - 1) / kBandRows);
+    parallelFor(bands, [&](std::size_t band) {
+        const int row = static_cast<int>(band) * kBandRows;
         const int end = std::min(row + kBandRows, canvas.height);
         for (std::size_t i = 0; i < blocks.size(); ++i) {
             if (spans[i].bottom < static_cast<float>(row) || spans[i].top > static_cast<float>(end)) continue;

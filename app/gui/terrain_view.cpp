@@ -9,13 +9,11 @@
 #include <QToolBar>
 #include <QToolButton>
 #include <QWheelEvent>
-#include <QtConcurrent>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
 
-#include "app/gui/background.hpp"
 #include "app/gui/figures.hpp"
 #include "app/gui/map_view.hpp"
 #include "app/gui/point_card.hpp"
@@ -109,10 +107,6 @@ TerrainView::TerrainView(ViewState& state, Selection& selection, TerrainRenderer
     rest_.setSingleShot(true);
     rest_.setInterval(kRest_ms);
     connect(&rest_, &QTimer::timeout, this, [this] { renew(false); });
-    connect(&watcher_, &QFutureWatcherBase::finished, this, [this] {
-        // Where the survey was closed meanwhile there is none.
-        if (watcher_.future().resultCount() > 0) take(watcher_.result());
-    });
     connect(&selection_, &Selection::changed, this, [this] {
         map_.highlighted = selection_.item();
         map_.stretches = selection_.stretches();
@@ -123,7 +117,7 @@ TerrainView::TerrainView(ViewState& state, Selection& selection, TerrainRenderer
 }
 
 TerrainView::~TerrainView() {
-    watcher_.waitForFinished();
+    scene_beside_.wait();
     // Its callbacks name this view.
     canvas_.reset();
 }
@@ -200,7 +194,7 @@ void TerrainView::build() {
                                   [](float h) { return !std::isnan(h); });
     building_ = some;
     if (!some) {
-        watcher_.setFuture({});
+        scene_beside_.drop();
         frame_.scene.reset();
         frame_.overlay.reset();
         points_map_m_.reset();
@@ -212,8 +206,8 @@ void TerrainView::build() {
     // The points of this surface, whatever is shown next.
     const std::shared_ptr<const std::vector<Eigen::Vector3d>> points(map_.survey,
                                                                      &map_.survey->ground_points_m);
-    watcher_.setFuture(QtConcurrent::run(backgroundPool(), [products = map_.products, shown = map_.shown,
-                                                            points, map = map_, palette = palette()] {
+    scene_beside_.start([products = map_.products, shown = map_.shown, points, map = map_,
+                         palette = palette()] {
         Built built;
         built.picture =
             std::make_shared<const RasterPicture>(rasterPicture(*products, shown.layer, shown.change.get()));
@@ -224,7 +218,7 @@ void TerrainView::build() {
         built.overlay_of = map;
         built.palette = palette;
         return built;
-    }));
+    });
     update();
 }
 

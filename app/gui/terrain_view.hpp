@@ -1,11 +1,11 @@
 #pragma once
 
-#include <QFutureWatcher>
 #include <QTimer>
 #include <QWidget>
 #include <memory>
 #include <optional>
 
+#include "app/gui/background.hpp"
 #include "app/gui/map_scene.hpp"
 #include "app/gui/selection.hpp"
 #include "app/gui/terrain_canvas.hpp"
@@ -115,7 +115,9 @@ class TerrainView : public QWidget {
     std::shared_ptr<const Survey> survey_;
     MapScene map_;
     std::shared_ptr<const std::vector<Eigen::Vector3d>> points_map_m_;
-    QFutureWatcher<Built> watcher_;
+    Background<Built> scene_beside_{[this](Built built) {
+        take(std::move(built));
+    }};
     TerrainFrame frame_;
     std::unique_ptr<TerrainCanvas> canvas_;
     QWidget* furniture_ = nullptr;  ///< lies on the picture

@@ -1,13 +1,12 @@
 #include "app/pipeline/ground_track.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <cstdint>
 #include <utility>
 
 #include "fusion/fuse_survey.hpp"
 #include "mapping/point_cleaning.hpp"
 #include "mapping/thinning.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -16,7 +15,7 @@ Result<GroundTrack> groundBelow(const Survey& survey, std::vector<FusedRun> runs
     GroundTrack track{std::nullopt, std::move(runs), {}, {}};
     const std::size_t n = survey.runs.size();
     std::vector<std::vector<GroundPoint>> points(n);
-    tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+    parallelFor(n, [&](std::size_t i) {
         points[i] = groundPoints(survey.runs[i], static_cast<std::uint32_t>(i), track.runs[i].trajectory,
                                  ground, stop);
     });

@@ -1,13 +1,13 @@
 #include "app/pipeline/height_change.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "io/read_dem.hpp"
 #include "mapping/profile.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 ElevationGrid onCells(const ElevationGrid& from, const GridGeometry& cells) {
     if (from.geometry == cells) return from;
     ElevationGrid grid{cells, std::vector<float>(cells.size(), kNoHeight)};
-    tbb::parallel_for(std::size_t{0}, cells.rows, [&](std::size_t row) {
+    parallelFor(cells.rows, [&](std::size_t row) {
         for (std::size_t column = 0; column < cells.columns; ++column) {
             const auto value = bilinearAt(from, {cells.centreX(column), cells.centreY(row)});
             if (value) grid.heights_m[row * cells.columns + column] = static_cast<float>(*value);

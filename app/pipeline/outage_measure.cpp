@@ -1,7 +1,5 @@
 #include "app/pipeline/outage_measure.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <utility>
 
 #include "fusion/fuse_survey.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -245,7 +244,7 @@ Result<std::vector<Outage>> measureOutages(const Survey& survey, const FusionOpt
     }
     std::vector<Result<Outage>> results(planned.size(), cancelled());
     std::atomic<std::size_t> done = 0;
-    tbb::parallel_for(std::size_t{0}, planned.size(), [&](std::size_t i) {
+    parallelFor(planned.size(), [&](std::size_t i) {
         if (stop.stop_requested()) return;
         results[i] = measured(survey, fusion, options, planned[i], stop);
         progress.report(static_cast<double>(++done) / static_cast<double>(planned.size()), "masking GNSS");

@@ -1,13 +1,12 @@
 #include "app/pipeline/relief.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "io/encode_picture.hpp"
 #include "mapping/shaded_relief.hpp"
 #include "resources/resources.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -98,7 +97,7 @@ Result<ReliefPicture> reliefPicture(const SurfaceModel& surface, const MapProjec
     const auto to_map = linearised(projection, g);
     if (!to_map) return tl::unexpected(to_map.error());
     grid.heights_m.assign(g.size(), kNoHeight);
-    tbb::parallel_for(std::size_t{0}, g.rows, [&](std::size_t row) {
+    parallelFor(g.rows, [&](std::size_t row) {
         for (std::size_t column = 0; column < g.columns; ++column) {
             const Eigen::Vector2d at = (*to_map)(g.centreX(column), g.centreY(row));
             const auto height_m = surface.heightAt(at.x(), at.y());

@@ -1,7 +1,6 @@
 #include "app/pipeline/tune_survey_loss.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +16,7 @@
 #include "fusion/sensor_readings.hpp"
 #include "mapping/order_statistics.hpp"
 #include "survey/mark_stands.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -185,7 +185,7 @@ std::optional<Measured> measuredAtMarks(const Survey& survey, const FusionOption
                             const FusionOptions& options,
                             const std::stop_token& stop) -> std::optional<PartLosses> {
         std::array<Result<FusedSurvey>, kFolds> fused{cancelled(), cancelled()};
-        tbb::parallel_for(std::size_t{0}, kFolds, [&](std::size_t fold) {
+        parallelFor(kFolds, [&](std::size_t fold) {
             SilentProgress silent;
             fused[fold] = fuseSurvey((*folds)[fold], options, silent, stop);
         });
@@ -277,7 +277,7 @@ Result<TunableProblem> surveyProblem(const Survey& survey, const PipelineConfig&
     problem.losses = [remembered, scales, d, m](std::span<const double> candidates,
                                                 std::span<const std::size_t> parts, std::span<double> losses,
                                                 const std::stop_token& of) {
-        tbb::parallel_for(std::size_t{0}, candidates.size() / d, [&](std::size_t c) {
+        parallelFor(candidates.size() / d, [&](std::size_t c) {
             const std::span<double> sums = losses.subspan(c * m, m);
             std::fill(sums.begin(), sums.end(), kInfinity);
             if (of.stop_requested()) return;

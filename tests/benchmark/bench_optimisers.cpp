@@ -7,7 +7,6 @@
 // A shift seed that was not used while the rules were chosen tells what they are worth.
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <charconv>
@@ -20,6 +19,7 @@
 
 #include "fusion/optimiser.hpp"
 #include "fusion/test_functions.hpp"
+#include "survey/parallel.hpp"
 
 namespace {
 
@@ -120,7 +120,7 @@ std::vector<std::vector<double>> medians(const Arguments& arguments) {
     const std::size_t kinds = arguments.kinds.size();
     const std::size_t seeds = arguments.seeds;
     std::vector<double> finals(kCases.size() * kinds * seeds);
-    tbb::parallel_for(std::size_t{0}, finals.size(), [&](std::size_t k) {
+    parallelFor(finals.size(), [&](std::size_t k) {
         finals[k] = finalLoss(kCases[k / (kinds * seeds)], arguments, arguments.kinds[k / seeds % kinds],
                               1 + k % seeds);
     });

@@ -3,7 +3,6 @@
 #include "app/pipeline/accuracy_measure.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +14,7 @@
 #include "app/pipeline/config.hpp"
 #include "app/pipeline/experiments/experiments.hpp"
 #include "app/pipeline/experiments/planned_surveys.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -142,7 +142,7 @@ Result<ExperimentReport> runAccuracy(const ExperimentOptions& options, Progress&
     std::vector<Trial> trials;
     for (const PlannedSurvey& planned : plannedSurveys(first_seed, surveys)) trials.push_back({planned, {}});
     std::atomic<std::size_t> done = 0;
-    tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
+    parallelFor(trials.size(), [&](std::size_t i) {
         if (stop.stop_requested()) return;
         measure(trials[i], *compared, stop);
         progress.report(static_cast<double>(++done) / static_cast<double>(trials.size()),

@@ -3,7 +3,6 @@
 #include "app/pipeline/dem_coverage.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <atomic>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "app/pipeline/accuracy_measure.hpp"
 #include "app/pipeline/experiments/experiments.hpp"
 #include "app/pipeline/experiments/planned_surveys.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -53,7 +53,7 @@ Result<ExperimentReport> runCoverage(const ExperimentOptions& options, Progress&
         trials.push_back({planned, cancelled()});
     }
     std::atomic<std::size_t> done = 0;
-    tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
+    parallelFor(trials.size(), [&](std::size_t i) {
         if (stop.stop_requested()) return;
         measure(trials[i], stop);
         progress.report(static_cast<double>(++done) / static_cast<double>(trials.size()),

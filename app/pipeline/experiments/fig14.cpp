@@ -1,7 +1,6 @@
 // Height error of the ground from raw sensors, the untuned filter and the tuned one.
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 #include "app/pipeline/accuracy_measure.hpp"
 #include "app/pipeline/experiments/experiments.hpp"
 #include "app/pipeline/experiments/tuner_trials.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -96,7 +96,7 @@ Result<ExperimentReport> runFig14(const ExperimentOptions& options, Progress& pr
     const std::uint64_t first_seed = 100 * options.seed + 1;
     std::vector<Trial> trials(surveys);
     std::atomic<std::size_t> done = 0;
-    tbb::parallel_for(std::size_t{0}, surveys, [&](std::size_t k) {
+    parallelFor(surveys, [&](std::size_t k) {
         if (stop.stop_requested()) return;
         trials[k] = measured(first_seed + k, budget, stop);
         progress.report(static_cast<double>(++done) / static_cast<double>(surveys), "simulated surveys");

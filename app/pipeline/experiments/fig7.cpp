@@ -2,7 +2,6 @@
 // them, and with the minimum moved away from the middle of the box.
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +13,7 @@
 #include "fusion/optimiser.hpp"
 #include "fusion/random_numbers.hpp"
 #include "fusion/test_functions.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -100,7 +100,7 @@ Result<ExperimentReport> runFig7(const ExperimentOptions& options, Progress& pro
     std::vector<Trial> trials(cases.size() * kContestants.size());
     std::vector<std::optional<Error>> errors(trials.size() * runs);
     for (Trial& trial : trials) trial.runs.resize(runs);
-    tbb::parallel_for(std::size_t{0}, errors.size(), [&](std::size_t k) {
+    parallelFor(errors.size(), [&](std::size_t k) {
         const Case& of = cases[k / runs / kContestants.size()];
         SilentProgress silent;
         const auto result =

@@ -1,8 +1,6 @@
 #include "app/pipeline/experiments/tuner_trials.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -12,6 +10,7 @@
 #include <optional>
 
 #include "fusion/random_numbers.hpp"
+#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -23,7 +22,7 @@ Objective objectiveOf(const FixedPointLoss& loss, std::size_t dimensions) {
     return {.evaluate =
                 [&loss, dimensions](std::span<const double> candidates, std::span<double> losses) {
                     // A thread that waits for its batch must not begin another search on top of it.
-                    tbb::this_task_arena::isolate([&] { loss.losses(candidates, dimensions, losses); });
+                    isolated([&] { loss.losses(candidates, dimensions, losses); });
                 },
             .losses = 2};
 }
@@ -110,7 +109,7 @@ Result<ExperimentReport> compareTuners(const LossComparison& comparison, std::si
     std::vector<Trial> trials(tuners.size() * repeats);
     std::vector<std::optional<Error>> errors(trials.size());
     std::atomic<std::size_t> done = 0;
-    tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t k) {
+    parallelFor(trials.size(), [&](std::size_t k) {
         if (stop.stop_requested()) return;
         const Tuner& tuner = tuners[k / repeats];
         const TuningGround& ground = grounds.at(tuner.filter);
