@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <new>
 
-#include "mapping/parallel_sort.hpp"
 #include "survey/parallel.hpp"
+#include "survey/parallel_sort.hpp"
 
 namespace terrawalk {
 

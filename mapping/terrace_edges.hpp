@@ -55,9 +55,9 @@ inline constexpr std::array<std::pair<TerraceEdgeUse, std::string_view>, 2> kTer
 /// the likelihood. The model must beat a quadratic surface by the Bayesian information criterion. From the
 /// clearest places an edge is followed both ways, step by step, while the model holds. Where the place is
 /// unsure the face becomes as much wider as the expected height would be, and a place as unsure as the
-/// points are apart ends the edge. Where the ground ends within two steps of an edge, the edge goes on to
-/// there if the last points on both sides bear the riser out. Edges never cross one another or the lines
-/// given, and keep to the ground between the points.
+/// points are apart ends the edge. Where the ground ends within a step and a half of an edge, the edge goes
+/// on to there if the last points on both sides bear the riser out. Edges never cross one another or the
+/// lines given, and keep to the ground between the points.
 ///
 /// Any order of the points gives the same edges, with any number of threads. Fewer than 30 points: no edges.
 /// @param lines  known already; finite places in plan

@@ -11,7 +11,7 @@ set(allowed_app/gui app/gui app/pipeline survey)
 # Third-party header prefixes and the only folders that may name them.
 set(third_party
     "CGAL/=mapping" "pcl/=mapping" "octomap/=mapping" "gdal=io" "ogr_=io" "cpl_=io" "proj.h=io" "nlohmann/=io|app/pipeline"
-    "CLI/=app/cli" "spdlog/=app/pipeline" "openssl/=io" "GeographicLib/=survey" "pagmo/=fusion" "tbb/=survey|mapping|app/cli" "Q=app/gui")
+    "CLI/=app/cli" "spdlog/=app/pipeline" "openssl/=io" "GeographicLib/=survey" "pagmo/=fusion" "tbb/=survey|app/cli" "Q=app/gui")
 
 set(breaches 0)
 foreach(folder survey fusion mapping io app/pipeline app/cli app/gui)

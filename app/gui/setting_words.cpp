@@ -364,7 +364,8 @@ namespace {
     QT_TRANSLATE_NOOP("SettingMeaning", "that the distance is taken to"),
     QT_TRANSLATE_NOOP("SettingMeaning", "above the mean distance that leave a point out"),
     QT_TRANSLATE_NOOP("SettingMeaning", "leave out points with next to nobody around them"),
-    QT_TRANSLATE_NOOP("SettingMeaning", "in which neighbours are counted, in space; 0: from the spacing of the points"),
+    QT_TRANSLATE_NOOP("SettingMeaning",
+                      "in which neighbours are counted, in space; 0: from the spacing of the points"),
     QT_TRANSLATE_NOOP("SettingMeaning", "that keep a point"),
     QT_TRANSLATE_NOOP(
         "SettingMeaning",

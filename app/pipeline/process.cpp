@@ -542,8 +542,13 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
 
     PartialProgress modelling(progress, 0.5, 0.7);
     progress.report(0.5, "making the surface");
-    auto surface =
-        makeSurface(survey, *fused, config.surface, modelOptions(config), *projection, modelling, stop);
+    Products products;
+    products.used = config;
+    if (RadiusOutlierOptions& radius = products.used.surface.cleaning.radius; radius.use) {
+        radius.radius_m = isolationRadius_m(ofChosenRuns(survey, fused->points, config.surface), radius);
+    }
+    auto surface = makeSurface(survey, *fused, products.used.surface, modelOptions(config), *projection,
+                               modelling, stop);
     if (!surface) return tl::unexpected(surface.error());
     const GroundTriangles& ground = surface->model.ground();
 
@@ -557,13 +562,8 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     }
     compareTrack(survey, *fused, config, heightOf(surface->model, *projection),
                  is_fused ? Stage::Fused : Stage::BeforeFusion, tied, *comparison);
-    Products products;
-    products.used = config;
     products.used.surface.tin.longest_edge_m = ground.longest_edge_m;
     products.used.surface.method = surface->model.method();
-    if (RadiusOutlierOptions& radius = products.used.surface.cleaning.radius; radius.use) {
-        radius.radius_m = isolationRadius_m(ofChosenRuns(survey, fused->points, config.surface), radius);
-    }
     if (config.surface.cell_m == 0.0) {
         products.used.surface.cell_m = suggestCellSize(ground.area_m2, surface->carrying_points);
     }

@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/pipeline/config.hpp"
 #include "app/pipeline/memory_need.hpp"
 #include "app/pipeline/version.hpp"
 #include "io/output_folder.hpp"
@@ -296,25 +297,11 @@ nlohmann::ordered_json variogramJson(const VariogramSummary& v) {
     return document;
 }
 
-/// The filters in use, in metres.
+/// The filters as settings of a survey have them, in metres.
 nlohmann::ordered_json cleaningJson(const PointCleaningOptions& cleaning) {
-    nlohmann::ordered_json filters = nlohmann::ordered_json::object();
-    if (const StatisticalOutlierOptions& s = cleaning.statistical; s.use) {
-        filters["statistical"] = {{"neighbours", s.neighbours}, {"sigmas", s.sigmas}};
-    }
-    if (const RadiusOutlierOptions& r = cleaning.radius; r.use) {
-        filters["radius"] = {{"radius_m", r.radius_m}, {"least_neighbours", r.least_neighbours}};
-    }
-    if (const AboveGroundOptions& a = cleaning.above_ground; a.use) {
-        filters["above_ground"] = {{"cell_m", a.cell_m},
-                                   {"greatest_window_m", a.greatest_window_m},
-                                   {"slope", a.slope},
-                                   {"least_height_m", a.least_height_m},
-                                   {"greatest_height_m", a.greatest_height_m},
-                                   {"link_m", a.link_m},
-                                   {"terrace_length_m", a.terrace_length_m}};
-    }
-    return filters;
+    PipelineConfig config;
+    config.surface.cleaning = cleaning;
+    return nlohmann::ordered_json::parse(toJson(config)).at("surface").at("clean");
 }
 
 nlohmann::ordered_json validationJson(const CrossValidation& validation) {

@@ -302,7 +302,7 @@ TEST(Kriging, HasLittleVarianceAtAPointAndMoreFartherAway) {
     ASSERT_TRUE(surface);
     EXPECT_TRUE((*surface)->hasVariance());
     const auto found = estimates(**surface, {{20.0, 20.0}, {21.0, 21.0}, {70.0, 70.0}});
-    EXPECT_NEAR(found[0].height_m, smooth(20.0, 20.0), 1e-4);
+    EXPECT_NEAR(found[0].height_m, smooth(20.0, 20.0), 2e-5);
     EXPECT_LT(found[0].variance_m2, 0.2 * found[1].variance_m2);
     EXPECT_LT(found[1].variance_m2, 0.1 * found[2].variance_m2);
     EXPECT_NEAR(found[1].height_m, smooth(21.0, 21.0), 0.01);
@@ -318,7 +318,7 @@ TEST(Kriging, TrustsAHeightTheLessTheGreaterItsSigma) {
     ASSERT_TRUE(held && ignored);
     const Eigen::Vector3d at = points[55];
     const double true_height = at.z() - 1.0;
-    EXPECT_GT(heightAt(**held, at.x(), at.y()) - true_height, 0.15);
+    EXPECT_GT(heightAt(**held, at.x(), at.y()) - true_height, 0.2);
     EXPECT_LT(std::abs(heightAt(**ignored, at.x(), at.y()) - true_height), 0.02);
 }
 
