@@ -43,6 +43,15 @@ void applyLanguage(const QString& language) {
     }
 }
 
+QString joinSentences(const QStringList& sentences) {
+    QString all;
+    for (const QString& sentence : sentences) {
+        if (sentence.isEmpty()) continue;
+        all = all.isEmpty() ? sentence : QCoreApplication::translate("Language", "%1 %2").arg(all, sentence);
+    }
+    return all;
+}
+
 QString preferredLanguage() {
     const QString chosen = QSettings().value("language").toString();
     return chosen.isEmpty() ? QLocale::system().name() : chosen;

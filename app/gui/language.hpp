@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QString>
+#include <QStringList>
 
 class QCoreApplication;
 
@@ -10,6 +11,9 @@ namespace terrawalk::gui {
 void applyLanguage(const QString& language);
 /// A text of a context in Chinese, whatever the language of the window; empty where there is none.
 [[nodiscard]] QString chineseOf(const char* context, const QString& english);
+/// Sentences one after the other, with the space between them that the window's language has; empty ones are
+/// left out.
+[[nodiscard]] QString joinSentences(const QStringList& sentences);
 /// What was chosen last, or what the system speaks.
 [[nodiscard]] QString preferredLanguage();
 

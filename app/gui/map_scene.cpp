@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/gui/figures.hpp"
+#include "app/gui/fix_classes.hpp"
 #include "app/gui/round_numbers.hpp"
 #include "app/gui/theme.hpp"
 #include "app/pipeline/relief.hpp"
@@ -44,19 +45,6 @@ std::vector<double> valuesOf(const MapTrack& track, TrackColouring colouring) {
     return {};
 }
 
-struct FixClass {
-    int code;
-    const char* name;
-    QRgb colour;
-};
-// Okabe and Ito: told apart by readers who do not see all colours.
-constexpr std::array<FixClass, 5> kFixClasses{{
-    {fix_code::kRtkFixed, QT_TRANSLATE_NOOP("MapScene", "RTK fixed"), qRgb(0, 158, 115)},
-    {fix_code::kRtkFloat, QT_TRANSLATE_NOOP("MapScene", "RTK float"), qRgb(86, 180, 233)},
-    {fix_code::kDifferential, QT_TRANSLATE_NOOP("MapScene", "DGNSS"), qRgb(240, 228, 66)},
-    {fix_code::kSingle, QT_TRANSLATE_NOOP("MapScene", "single"), qRgb(230, 159, 0)},
-    {fix_code::kNone, QT_TRANSLATE_NOOP("MapScene", "none"), qRgb(213, 94, 0)},
-}};
 constexpr QRgb kUnknownFix = qRgb(120, 120, 120);
 constexpr QRgb kNoValue = qRgb(160, 160, 160);
 
@@ -223,8 +211,7 @@ std::vector<std::pair<QString, QColor>> fixClasses(const MapScene& scene) {
                            });
     };
     for (const FixClass& c : kFixClasses) {
-        if (occurs(c.code))
-            classes.emplace_back(QCoreApplication::translate("MapScene", c.name), QColor(c.colour));
+        if (occurs(c.code)) classes.emplace_back(c.words(), QColor(c.colour));
     }
     if (occurs(-1))
         classes.emplace_back(QCoreApplication::translate("MapScene", "not told"), QColor(kUnknownFix));

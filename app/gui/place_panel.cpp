@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "app/gui/figures.hpp"
+#include "app/gui/language.hpp"
 #include "app/gui/report_words.hpp"
 #include "app/gui/theme.hpp"
 
@@ -99,13 +100,13 @@ QString adviceText(const PlaceReport& place) {
         {p.interpolation_m, PlacePanel::tr("the way between the points")}};
     const auto largest = std::max_element(std::begin(causes), std::end(causes),
                                           [](const auto& a, const auto& b) { return a.first < b.first; });
-    QString advice =
+    const QString advice =
         PlacePanel::tr("Most of it is %1 (%2).").arg(largest->second, lengthText(largest->first));
     const bool helps = *place.sigma_m - *place.sigma_after_pass_m > 0.05 * *place.sigma_m;
-    return advice + " " +
-           (helps ? PlacePanel::tr("One more pass here would bring %1 down to about %2.")
-                        .arg(lengthText(*place.sigma_m), lengthText(*place.sigma_after_pass_m))
-                  : PlacePanel::tr("One more pass here would hardly help."));
+    return joinSentences(
+        {advice, helps ? PlacePanel::tr("One more pass here would bring %1 down to about %2.")
+                             .arg(lengthText(*place.sigma_m), lengthText(*place.sigma_after_pass_m))
+                       : PlacePanel::tr("One more pass here would hardly help.")});
 }
 
 void addSigma(QVBoxLayout& column, const PlaceReport& place) {

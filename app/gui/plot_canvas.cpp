@@ -124,6 +124,7 @@ struct PlotCanvas::Parts {
     void addBars(Panel& panel, const PlotSeries& series);
     void addBoxes(Panel& panel, const PlotSeries& series);
     void addBand(Shown& shown, QCPAxis* x, QCPAxis* y, const QColor& colour);
+    static QSharedPointer<QCPAxisTicker> namedTicks(const QStringList& names);
     void nameCategories(QCPAxisRect& rect);
     void style(QCPAxisRect& rect) const;
     void setX(double from, double to);
@@ -289,7 +290,9 @@ QString PlotCanvas::readoutAt(std::size_t index, double x) const {
             nearest = i;
         }
         if (!nearest) continue;
-        QString value = number(series.y[*nearest], panel.decimals);
+        QString value = panel.value_names.isEmpty()
+                            ? number(series.y[*nearest], panel.decimals)
+                            : panel.value_names.value(std::lround(series.y[*nearest]));
         if (!series.half_band.empty()) {
             value += QString::fromUtf8(" ± ") + number(series.half_band[*nearest], panel.decimals);
         }
@@ -318,6 +321,12 @@ void PlotCanvas::Parts::style(QCPAxisRect& rect) const {
         const bool box = axis->axisType() == QCPAxis::atTop || axis->axisType() == QCPAxis::atRight;
         if (box) axis->setTicks(false);
     }
+}
+
+QSharedPointer<QCPAxisTicker> PlotCanvas::Parts::namedTicks(const QStringList& names) {
+    auto ticker = QSharedPointer<QCPAxisTickerText>::create();
+    for (qsizetype i = 0; i < names.size(); ++i) ticker->addTick(static_cast<double>(i), names[i]);
+    return ticker;
 }
 
 void PlotCanvas::Parts::nameCategories(QCPAxisRect& rect) {
@@ -608,6 +617,10 @@ void PlotCanvas::Parts::scaleY(std::size_t index) {
     const double low = source.from_zero && seen.low >= 0.0 ? 0.0 : seen.low - margin;
     const double high = seen.high + margin;
     axis->setRange(low, high);
+    if (!source.value_names.isEmpty()) {
+        axis->setTicker(namedTicks(source.value_names));
+        return;
+    }
     const double step = tickStep((high - low) / kYTicks, source.decimals == 0);
     auto ticker = QSharedPointer<QCPAxisTickerFixed>::create();
     ticker->setTickStep(step);

@@ -8,6 +8,8 @@
 #include <numeric>
 
 #include "app/gui/figures.hpp"
+#include "app/gui/fix_classes.hpp"
+#include "app/gui/language.hpp"
 #include "app/gui/report_words.hpp"
 
 namespace terrawalk::gui {
@@ -107,6 +109,24 @@ void keepInSight(Plot& plot) {
                     .arg(lengthText(values.back(), 1));
 }
 
+// The worst fix lies lowest; codes that have no name are below it.
+void addFixes(Plot& plot, const ArrayLog& log) {
+    PlotPanel panel{QCoreApplication::translate("PlotData", "GNSS fix"), {}, 0, {}, false};
+    panel.value_names << QCoreApplication::translate("PlotData", "other");
+    for (auto c = kFixClasses.rbegin(); c != kFixClasses.rend(); ++c) panel.value_names << c->words();
+    auto series =
+        channelSeries(log, Channel::Fix, QCoreApplication::translate("PlotData", "Fix"), SeriesInk::First);
+    for (double& y : series.y) {
+        if (!present(y)) continue;
+        const auto place = std::find_if(kFixClasses.begin(), kFixClasses.end(),
+                                        [y](const FixClass& c) { return c.code == std::lround(y); });
+        y = static_cast<double>(kFixClasses.end() - place);
+    }
+    if (series.x.empty()) return;
+    panel.series.push_back(std::move(series));
+    plot.panels.push_back(std::move(panel));
+}
+
 constexpr double kDegrees = 180.0 / kPi;
 
 Plot sensorPlot(PlotKind kind, const Run& run) {
@@ -114,8 +134,7 @@ Plot sensorPlot(PlotKind kind, const Run& run) {
     const ArrayLog& log = run.log;
     switch (kind) {
         case PlotKind::GnssPosition:
-            addChannels(plot, log, QCoreApplication::translate("PlotData", "Fix code"), {}, 0,
-                        {{Channel::Fix, QT_TRANSLATE_NOOP("PlotData", "Fix")}});
+            addFixes(plot, log);
             addChannels(plot, log, QCoreApplication::translate("PlotData", "Ellipsoidal height"), "m", 2,
                         {{Channel::EllipsoidalHeight, QT_TRANSLATE_NOOP("PlotData", "Height")}});
             addChannels(plot, log, QCoreApplication::translate("PlotData", "Accuracy"), "m", 2,
@@ -686,11 +705,11 @@ Plot tuningPlot(const SurveyReport& report) {
         after.y.push_back(*tuning.left_out_after);
     }
     plot.panels.push_back({text(tuning.loss), {}, 3, {std::move(before), std::move(after)}, true});
-    plot.note = reportWords(tuning.decision) + " " +
-                QCoreApplication::translate("PlotData", "%1, %2 evaluations, seed %3.")
-                    .arg(text(tuning.optimiser))
-                    .arg(tuning.evaluations)
-                    .arg(tuning.seed);
+    plot.note = joinSentences(
+        {reportWords(tuning.decision), QCoreApplication::translate("PlotData", "%1, %2 evaluations, seed %3.")
+                                           .arg(text(tuning.optimiser))
+                                           .arg(tuning.evaluations)
+                                           .arg(tuning.seed)});
     return plot;
 }
 

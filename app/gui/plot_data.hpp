@@ -67,6 +67,7 @@ struct PlotPanel {
     std::vector<PlotSeries> series;
     bool from_zero = false;                        ///< y starts at zero
     std::optional<double> highest = std::nullopt;  ///< y ends here, whatever lies above
+    QStringList value_names = {};                  ///< of y = 0, 1, 2 ..., where y is no number
 };
 
 struct Plot {

@@ -12,6 +12,7 @@
 #include <QPrinter>
 #include <QSaveFile>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QToolBar>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -24,9 +25,9 @@ namespace terrawalk::gui {
 
 namespace {
 
-constexpr double kScreen_dpi = 144.0;
 constexpr double kPrint_dpi = 300.0;
 constexpr int kWidestPage_px = 900;
+constexpr double kPoints_dpi = 72.0;
 
 QImage drawn(Poppler::Document& document, int page, double dpi) {
     const std::unique_ptr<Poppler::Page> one = document.page(page);
@@ -55,6 +56,8 @@ ReportView::ReportView(QWidget* parent) : QWidget(parent) {
     hint_->setAlignment(Qt::AlignCenter);
     scroll_ = new QScrollArea;
     scroll_->setWidgetResizable(true);
+    // A bar that comes with the pages would take the room they were drawn for.
+    scroll_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
@@ -63,7 +66,7 @@ ReportView::ReportView(QWidget* parent) : QWidget(parent) {
     layout->addWidget(scroll_, 1);
     resized_.setSingleShot(true);
     resized_.setInterval(120);
-    connect(&resized_, &QTimer::timeout, this, &ReportView::layOut);
+    connect(&resized_, &QTimer::timeout, this, &ReportView::draw);
     themeChanged();
     show(nullptr, nullptr);
 }
@@ -91,25 +94,50 @@ void ReportView::make() {
     if (!products_) return;
     current_ = true;
     const QString file = folder_.filePath("report.pdf");
-    pages_beside_.start([survey = survey_, products = products_, file]() -> Made {
+    pages_beside_.start([survey = survey_, products = products_, file, width_px = pageWidth_px(),
+                         ratio = devicePixelRatioF()]() -> Made {
         if (const auto written = writeReport(*survey, *products, file.toStdString()); !written) {
             return {{}, errorWords(written.error()), {}};
         }
-        const auto document = opened(file);
-        if (!document) return {{}, tr("The report cannot be drawn."), {}};
-        Made made{file, {}, {}};
-        for (int page = 0; page < document->numPages(); ++page)
-            made.pages.push_back(drawn(*document, page, kScreen_dpi));
-        return made;
+        return drawnPages(file, width_px, ratio);
     });
     layOut();
+}
+
+// Beside the window, for its width; the pages before stay until these are there.
+void ReportView::draw() {
+    if (file_.isEmpty()) return;
+    pages_beside_.start([file = file_, width_px = pageWidth_px(), ratio = devicePixelRatioF()] {
+        return drawnPages(file, width_px, ratio);
+    });
+}
+
+ReportView::Made ReportView::drawnPages(const QString& file, int width_px, double pixel_ratio) {
+    const auto document = opened(file);
+    if (!document) return {{}, tr("The report cannot be drawn."), {}};
+    Made made{file, {}, {}, width_px, pixel_ratio};
+    for (int page = 0; page < document->numPages(); ++page) {
+        const std::unique_ptr<Poppler::Page> one = document->page(page);
+        const double paper_points = one ? one->pageSizeF().width() : 0.0;
+        if (paper_points <= 0.0) return {{}, tr("The report cannot be drawn."), {}};
+        made.pages.push_back(drawn(*document, page, width_px * pixel_ratio * kPoints_dpi / paper_points));
+    }
+    return made;
+}
+
+int ReportView::pageWidth_px() const {
+    const int room_px = width() - scroll_->verticalScrollBar()->sizeHint().width() - 4 * kGrid_px;
+    return std::clamp(room_px, 240, kWidestPage_px);
 }
 
 void ReportView::take(const Made& made) {
     file_ = made.file;
     pages_ = made.pages;
+    pixel_ratio_ = made.pixel_ratio;
     if (!made.problem.isEmpty()) Q_EMIT failed(made.problem);
     layOut();
+    // The window may have another width by now.
+    if (made.width_px != pageWidth_px() && !pages_.empty()) resized_.start();
 }
 
 void ReportView::layOut() {
@@ -126,13 +154,10 @@ void ReportView::layOut() {
     column_ = new QVBoxLayout(paper);
     column_->setContentsMargins(2 * kGrid_px, 2 * kGrid_px, 2 * kGrid_px, 2 * kGrid_px);
     column_->setSpacing(2 * kGrid_px);
-    const int width = std::min(kWidestPage_px, std::max(240, scroll_->viewport()->width() - 4 * kGrid_px));
     for (const QImage& page : pages_) {
         auto* label = new QLabel;
-        const double ratio = devicePixelRatioF();
-        QPixmap picture =
-            QPixmap::fromImage(page.scaledToWidth(static_cast<int>(width * ratio), Qt::SmoothTransformation));
-        picture.setDevicePixelRatio(ratio);
+        QPixmap picture = QPixmap::fromImage(page);
+        picture.setDevicePixelRatio(pixel_ratio_);
         label->setPixmap(picture);
         label->setAlignment(Qt::AlignHCenter);
         column_->addWidget(label);

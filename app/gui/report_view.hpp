@@ -28,7 +28,7 @@ class ReportView : public QWidget {
     using QWidget::show;
     void themeChanged();
     /// Whether the report is being made or drawn.
-    [[nodiscard]] bool preparing() const { return pages_beside_.running(); }
+    [[nodiscard]] bool preparing() const { return pages_beside_.running() || resized_.isActive(); }
     [[nodiscard]] std::size_t pages() const { return pages_.size(); }
     /// Empty before it is made.
     [[nodiscard]] const QString& file() const { return file_; }
@@ -49,9 +49,14 @@ class ReportView : public QWidget {
         QString file;
         QString problem;
         std::vector<QImage> pages;
+        int width_px = 0;  ///< of a page, in the window's pixels
+        double pixel_ratio = 1.0;
     };
     void make();
+    void draw();
     void take(const Made& made);
+    [[nodiscard]] int pageWidth_px() const;
+    static Made drawnPages(const QString& file, int width_px, double pixel_ratio);
     void layOut();
     void askAndSave();
     void askAndPrint();
@@ -61,6 +66,7 @@ class ReportView : public QWidget {
     QTemporaryDir folder_;
     QString file_;
     std::vector<QImage> pages_;
+    double pixel_ratio_ = 1.0;  ///< of the pages
     Background<Made> pages_beside_{[this](Made made) {
         take(made);
     }};

@@ -218,10 +218,16 @@ void markChanged(QLabel& name, bool changed) {
     name.style()->polish(&name);
 }
 
+// Numbers from one to another; names of choices are words of the file and stay.
+static QString rangeWords(const QString& range) {
+    const QStringList ends = range.split(" to ");
+    return ends.size() == 2 ? SettingEditor::tr("%1 to %2").arg(ends[0], ends[1]) : range;
+}
+
 QString settingHelp(const QString& key) {
     const ParameterInfo& info = parameterInfo(key.toStdString());
     return SettingEditor::tr("<p>%1</p><p>Permitted: %2<br>Default: %3<br><tt>%4</tt></p>")
-        .arg(settingMeaning(key).toHtmlEscaped(), text(info.range).toHtmlEscaped(),
+        .arg(settingMeaning(key).toHtmlEscaped(), rangeWords(text(info.range)).toHtmlEscaped(),
              text(info.default_value).toHtmlEscaped(), key.toHtmlEscaped());
 }
 

@@ -11,6 +11,7 @@
 
 #include "app/gui/accuracy_words.hpp"
 #include "app/gui/figures.hpp"
+#include "app/gui/language.hpp"
 #include "app/gui/report_words.hpp"
 #include "app/gui/sample_surveys.hpp"
 #include "app/gui/setting_editor.hpp"
@@ -161,11 +162,11 @@ void SurveySession::finishRun(FinishedRun run) {
     Q_EMIT productsChanged();
     const SurveyReport& report = products()->report;
     for (const std::string& line : report.warnings) Q_EMIT told(MessageKind::Warning, reportWords(line));
-    const QString figure = report.figures.empty() ? QString()
-                                                  : tr(" %1: %2.")
-                                                        .arg(reportWords(report.figures.front().label),
-                                                             text(report.figures.front().value));
-    Q_EMIT told(MessageKind::Done, tr("Processed.") + figure + (before.isEmpty() ? QString() : " " + before));
+    const QString figure = report.figures.empty()
+                               ? QString()
+                               : tr("%1: %2.").arg(reportWords(report.figures.front().label),
+                                                   text(report.figures.front().value));
+    Q_EMIT told(MessageKind::Done, joinSentences({tr("Processed."), figure, before}));
 }
 
 void SurveySession::tune(const TuneOptions& options, std::size_t repeats) {

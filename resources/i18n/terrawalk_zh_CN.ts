@@ -9,6 +9,36 @@
         </message>
     </context>
     <context>
+        <name>FixClass</name>
+        <message>
+            <source>RTK fixed</source>
+            <translation>RTK 固定解</translation>
+        </message>
+        <message>
+            <source>RTK float</source>
+            <translation>RTK 浮点解</translation>
+        </message>
+        <message>
+            <source>DGNSS</source>
+            <translation>差分</translation>
+        </message>
+        <message>
+            <source>single</source>
+            <translation>单点</translation>
+        </message>
+        <message>
+            <source>none</source>
+            <translation>无</translation>
+        </message>
+    </context>
+    <context>
+        <name>Language</name>
+        <message>
+            <source>%1 %2</source>
+            <translation>%1%2</translation>
+        </message>
+    </context>
+    <context>
         <name>MapFurniture</name>
         <message>
             <source>Height</source>
@@ -66,26 +96,6 @@
     <context>
         <name>MapScene</name>
         <message>
-            <source>RTK fixed</source>
-            <translation>RTK 固定解</translation>
-        </message>
-        <message>
-            <source>RTK float</source>
-            <translation>RTK 浮点解</translation>
-        </message>
-        <message>
-            <source>DGNSS</source>
-            <translation>差分</translation>
-        </message>
-        <message>
-            <source>single</source>
-            <translation>单点</translation>
-        </message>
-        <message>
-            <source>none</source>
-            <translation>无</translation>
-        </message>
-        <message>
             <source>not told</source>
             <translation>未知</translation>
         </message>
@@ -104,10 +114,6 @@
     </context>
     <context>
         <name>PlotData</name>
-        <message>
-            <source>Fix code</source>
-            <translation>定位代码</translation>
-        </message>
         <message>
             <source>Fix</source>
             <translation>定位</translation>
@@ -519,6 +525,14 @@
         <message>
             <source>%1 readings lie above the picture, up to %2.</source>
             <translation>%1 个读数超出图面，最大 %2。</translation>
+        </message>
+        <message>
+            <source>GNSS fix</source>
+            <translation>GNSS 定位状态</translation>
+        </message>
+        <message>
+            <source>other</source>
+            <translation>其他</translation>
         </message>
     </context>
     <context>
@@ -6717,6 +6731,10 @@
             <source>off</source>
             <translation>关</translation>
         </message>
+        <message>
+            <source>%1 to %2</source>
+            <translation>%1 至 %2</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::SettingsDialog</name>
@@ -7167,10 +7185,6 @@
             <translation>已打开 %1。</translation>
         </message>
         <message>
-            <source> %1: %2.</source>
-            <translation> %1：%2。</translation>
-        </message>
-        <message>
             <source>Processed.</source>
             <translation>处理完成。</translation>
         </message>
@@ -7247,6 +7261,10 @@
         <message>
             <source>Less %1: median %2, RMS %3.</source>
             <translation>减去 %1：中位数 %2，RMS %3。</translation>
+        </message>
+        <message>
+            <source>%1: %2.</source>
+            <translation>%1：%2。</translation>
         </message>
     </context>
     <context>

@@ -28,6 +28,7 @@ class TestPlotsView : public QObject {
     void thinnedLineKeepsGaps();
     void thinnedDotsTakeEachPixelOnce();
     void gapsOfASensorBreakItsLine();
+    void fixesAreNamedTheBestHighest();
     void bandIsOfTheCovariance();
     void groundPointsAreAllThere();
     void innovationsAreThoseOfTheFilter();
@@ -163,6 +164,29 @@ void TestPlotsView::gapsOfASensorBreakItsLine() {
     QVERIFY(at_s > 8.0 && at_s < 12.0);
     // In hectopascal.
     QCOMPARE(series.y.front(), 1000.0);
+}
+
+void TestPlotsView::fixesAreNamedTheBestHighest() {
+    Survey survey;
+    Run run;
+    run.id = "R";
+    int i = 0;
+    for (const int fix : {fix_code::kNone, fix_code::kSingle, fix_code::kRtkFloat, fix_code::kRtkFixed, 6}) {
+        run.log.time_s.push_back(0.2 * i++);
+        run.log.column(Channel::Fix).push_back(fix);
+    }
+    survey.runs.push_back(run);
+    const Plot plot = plotOf(PlotKind::GnssPosition, 0, survey, nullptr);
+    QCOMPARE(plot.panels.size(), std::size_t{1});
+    const PlotPanel& panel = plot.panels[0];
+    QStringList names;
+    for (const double y : panel.series[0].y) names << panel.value_names.value(std::lround(y));
+    QCOMPARE(names, QStringList({"none", "single", "RTK float", "RTK fixed", "other"}));
+    QVERIFY(std::is_sorted(panel.series[0].y.begin(), panel.series[0].y.begin() + 4));
+    PlotCanvas canvas;
+    canvas.resize(600, 300);
+    canvas.show(plot);
+    QVERIFY2(canvas.readoutAt(0, 0.6).endsWith("RTK fixed"), qPrintable(canvas.readoutAt(0, 0.6)));
 }
 
 void TestPlotsView::bandIsOfTheCovariance() {

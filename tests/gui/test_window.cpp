@@ -15,6 +15,8 @@
 #include <QProcess>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QSpinBox>
@@ -509,6 +511,18 @@ void WindowTest::reportIsShownSavedAndPrinted() {
     auto* report = window_->findChild<ReportView*>("report");
     window_->findChild<QTabWidget*>("views")->setCurrentWidget(report);
     QTRY_VERIFY_WITH_TIMEOUT(report->pages() > 0, kLong_ms);
+    // The pages have the width of the view, whatever that is.
+    const auto* area = report->findChild<QScrollArea*>();
+    const QSize before = window_->size();
+    for (const int wider_px : {0, 160, 0}) {
+        window_->resize(before.width() + wider_px, before.height());
+        const auto spare_px = [&] {
+            const QPixmap page = area->findChild<QLabel*>()->pixmap();
+            return area->viewport()->width() - page.deviceIndependentSize().toSize().width();
+        };
+        QTRY_VERIFY_WITH_TIMEOUT(spare_px() >= 0 && spare_px() <= 40, kLong_ms);
+        QTRY_VERIFY(!area->horizontalScrollBar()->isVisible());
+    }
     QVERIFY(report->saveTo(scratch_->filePath("report.pdf")));
     QVERIFY(bytesOf(scratch_->filePath("report.pdf")).startsWith("%PDF"));
     QVERIFY(!report->saveTo("/no/such/place/report.pdf"));
