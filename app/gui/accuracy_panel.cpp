@@ -64,7 +64,6 @@ void fitHeight(QTableView& table) {
 void dress(QTableView& table) {
     dressTable(table, 26);
     table.setAlternatingRowColors(true);
-    table.horizontalHeader()->setStretchLastSection(true);
     table.setSelectionMode(QAbstractItemView::SingleSelection);
     table.setEditTriggers(QAbstractItemView::NoEditTriggers);
     table.setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);

@@ -260,8 +260,9 @@ void SurveySession::takeChange(Result<HeightChange> change) {
                         .arg(text(c.earlier), signedLength(c.median_m), lengthText(c.rms_m, 3));
     if (c.has_sigma) {
         const auto sure = static_cast<double>(c.difference.raised + c.difference.lowered);
-        words +=
-            " " + tr("%1 % of the cells beyond 1.96 σ.").arg(QString::number(100.0 * sure / cells, 'f', 1));
+        words = joinSentences(
+            {words,
+             tr("%1 % of the cells beyond 1.96 σ.").arg(QString::number(100.0 * sure / cells, 'f', 1))});
     }
     view_state_.setChange(std::make_shared<const HeightChange>(std::move(*change)));
     Q_EMIT told(MessageKind::Done, words);

@@ -1065,7 +1065,7 @@
         </message>
         <message>
             <source>at %1</source>
-            <translation>在 %1 处</translation>
+            <translation>在 %1处</translation>
         </message>
         <message>
             <source>%1 check marks</source>
@@ -1101,7 +1101,7 @@
         </message>
         <message>
             <source>at %1; %2 before fusion and %3 now at the %4 that both reach</source>
-            <translation>在 %1 处；两者都到达的 %4 个点上，融合前 %2，现在 %3</translation>
+            <translation>在 %1处；两者都到达的 %4 个点上，融合前 %2，现在 %3</translation>
         </message>
         <message>
             <source>at %1; %2 before fusion</source>
