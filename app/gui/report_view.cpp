@@ -82,6 +82,7 @@ void ReportView::show(std::shared_ptr<const Survey> survey, std::shared_ptr<cons
     current_ = false;
     pages_.clear();
     file_.clear();
+    pages_beside_.drop();
     layOut();
     if (isVisible()) make();
 }

@@ -1540,6 +1540,9 @@ void WindowTest::chineseKnowsSettingsStepsAndSentences() {
         const QString meaning = settingMeaning(QString::fromStdString(info.key));
         QVERIFY2(isChinese(meaning), qPrintable(meaning));
     }
+    QCOMPARE(joinSentences({"甲。", QString(), "乙。"}), QString("甲。乙。"));
+    QVERIFY2(settingHelp("fusion.joint.rounds").contains(" 至 "),
+             qPrintable(settingHelp("fusion.joint.rounds")));
     const SurveyReport& report = session().products()->report;
     std::vector<std::string> sentences;
     for (const auto* lines : {&report.statements, &report.limitations, &report.warnings})
