@@ -830,10 +830,7 @@ void MainWindow::showProfile(const QPolygonF& line_m) {
 
 void MainWindow::showSettings(StepKind step) {
     if (settings_ == nullptr) settings_ = new SettingsDialog(session_, this);
-    settings_->show();
-    settings_->raise();
-    settings_->activateWindow();
-    settings_->showStep(step);
+    settings_->openAt(step);
 }
 
 void MainWindow::showRuns() {

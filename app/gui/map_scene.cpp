@@ -395,6 +395,21 @@ void drawMarkSymbol(QPainter& painter, QPointF at, const ControlMark& mark, bool
     }
 }
 
+namespace {
+
+std::vector<MarkName> markNames(const MapScene& scene, const MapTransform& transform) {
+    std::vector<MarkName> names;
+    for (const PlacedMark& placed : scene.survey->marks) {
+        const QString name = text(placed.mark.name);
+        if (scene.shown.hidden_marks.contains(name)) continue;
+        const QPointF at = transform.toScreen({placed.map_m.x(), placed.map_m.y()});
+        names.push_back({at, name, scene.highlighted == name});
+    }
+    return names;
+}
+
+}  // namespace
+
 void drawMarks(QPainter& painter, const MapScene& scene, const MapTransform& transform,
                const QPalette& palette) {
     if (!scene.survey || !scene.shown.marks) return;
@@ -411,21 +426,59 @@ void drawMarks(QPainter& painter, const MapScene& scene, const MapTransform& tra
         }
         drawMarkSymbol(painter, at, placed.mark, scene.highlighted == name, kMarkInk);
     }
-    // Names last, and only where they do not lie on one another.
-    QList<QRectF> taken;
-    for (const PlacedMark& placed : scene.survey->marks) {
-        const QString name = text(placed.mark.name);
-        if (scene.shown.hidden_marks.contains(name)) continue;
-        const QPointF at = transform.toScreen({placed.map_m.x(), placed.map_m.y()}) + QPointF(8, -6);
-        const QRectF box(
-            at - QPointF(0, painter.fontMetrics().ascent()),
-            QSizeF(painter.fontMetrics().horizontalAdvance(name), painter.fontMetrics().height()));
-        const bool free = std::none_of(taken.begin(), taken.end(),
-                                       [&](const QRectF& other) { return other.intersects(box); });
-        if (!free && scene.highlighted != name) continue;
-        taken << box;
-        drawLabel(painter, at, name, palette);
+    drawMarkNames(painter, markNames(scene, transform), palette);
+}
+
+namespace {
+
+QRectF symbolBox(const MarkName& mark) {
+    constexpr double kSide_px = 16.0;
+    return {mark.at.x() - 0.5 * kSide_px, mark.at.y() - 0.5 * kSide_px, kSide_px, kSide_px};
+}
+
+/// Where a name may start, from the middle of its symbol, the best place first.
+std::array<QPointF, 4> namePlaces(const QFontMetricsF& metrics, double width_px) {
+    constexpr double kOff_px = 9.0;
+    const double middle = 0.4 * metrics.ascent();
+    return {QPointF(kOff_px, middle), QPointF(-kOff_px - width_px, middle),
+            QPointF(-0.5 * width_px, -kOff_px - metrics.descent()),
+            QPointF(-0.5 * width_px, kOff_px + metrics.ascent())};
+}
+
+}  // namespace
+
+std::vector<PlacedName> placeMarkNames(const QFontMetricsF& metrics, const std::vector<MarkName>& marks) {
+    std::vector<QRectF> taken;
+    for (const MarkName& mark : marks) {
+        taken.push_back(symbolBox(mark));
+        if (mark.pin_px > 0.0) taken.emplace_back(mark.at.x() - 2.0, mark.at.y(), 4.0, mark.pin_px);
     }
+    std::vector<PlacedName> placed;
+    for (const MarkName& mark : marks) {
+        const double width_px = metrics.horizontalAdvance(mark.name);
+        const auto boxAt = [&](QPointF place) {
+            return QRectF(mark.at + place - QPointF(0, metrics.ascent()), QSizeF(width_px, metrics.height()));
+        };
+        const auto free = [&](QPointF place) {
+            return std::none_of(taken.begin(), taken.end(),
+                                [box = boxAt(place)](const QRectF& other) { return other.intersects(box); });
+        };
+        const auto places = namePlaces(metrics, width_px);
+        const auto* place = std::find_if(places.begin(), places.end(), free);
+        if (place == places.end() && !mark.highlighted) continue;
+        if (place == places.end()) place = places.begin();
+        taken.push_back(boxAt(*place));
+        placed.push_back({&mark, mark.at + *place, taken.back()});
+    }
+    return placed;
+}
+
+void drawMarkNames(QPainter& painter, const std::vector<MarkName>& marks, const QPalette& palette) {
+    for (const PlacedName& name : placeMarkNames(QFontMetricsF(painter.font()), marks)) {
+        painter.setOpacity(name.mark->opacity);
+        drawLabel(painter, name.start, name.mark->name, palette);
+    }
+    painter.setOpacity(1.0);
 }
 
 void drawTerraceEdges(QPainter& painter, const MapScene& scene, const MapTransform& transform) {
@@ -448,14 +501,9 @@ namespace {
 QList<QRectF> markBoxes(const QPainter& painter, const MapScene& scene, const MapTransform& transform) {
     QList<QRectF> boxes;
     if (!scene.survey || !scene.shown.marks) return boxes;
-    const QFontMetrics metrics = painter.fontMetrics();
-    for (const PlacedMark& placed : scene.survey->marks) {
-        const QString name = text(placed.mark.name);
-        if (scene.shown.hidden_marks.contains(name)) continue;
-        const QPointF at = transform.toScreen({placed.map_m.x(), placed.map_m.y()});
-        boxes << QRectF(at - QPointF(8, metrics.ascent() + 6),
-                        QSizeF(16 + metrics.horizontalAdvance(name), metrics.height() + 14));
-    }
+    const std::vector<MarkName> marks = markNames(scene, transform);
+    for (const MarkName& mark : marks) boxes << symbolBox(mark);
+    for (const PlacedName& name : placeMarkNames(QFontMetricsF(painter.font()), marks)) boxes << name.box;
     return boxes;
 }
 

@@ -94,6 +94,24 @@ inline const QColor kMarkInk(20, 24, 28);
 /// Square, triangle or dot: zero mark, control or check.
 void drawMarkSymbol(QPainter& painter, QPointF at, const ControlMark& mark, bool highlighted,
                     const QColor& colour);
+/// A mark's symbol on the screen, whose name is to stand beside it.
+struct MarkName {
+    QPointF at;
+    QString name;
+    bool highlighted = false;  ///< shown even where it lies on something
+    double pin_px = 0.0;       ///< below the symbol
+    double opacity = 1.0;
+};
+struct PlacedName {
+    const MarkName* mark = nullptr;
+    QPointF start;  ///< of the base line
+    QRectF box;
+};
+/// Names right, left, above or below their symbols, none on another, on a symbol or on a pin; those that find
+/// no place are left out. They point into `marks`.
+[[nodiscard]] std::vector<PlacedName> placeMarkNames(const QFontMetricsF& metrics,
+                                                     const std::vector<MarkName>& marks);
+void drawMarkNames(QPainter& painter, const std::vector<MarkName>& marks, const QPalette& palette);
 void drawMarks(QPainter& painter, const MapScene& scene, const MapTransform& transform,
                const QPalette& palette);
 void drawTerraceEdges(QPainter& painter, const MapScene& scene, const MapTransform& transform);

@@ -83,6 +83,7 @@ void ReportView::show(std::shared_ptr<const Survey> survey, std::shared_ptr<cons
     pages_.clear();
     file_.clear();
     pages_beside_.drop();
+    scroll_->verticalScrollBar()->setValue(0);
     layOut();
     if (isVisible()) make();
 }
@@ -151,6 +152,8 @@ void ReportView::layOut() {
         products_ ? tr("The report is being made ready…")
                   : tr("No report yet. Process the survey: what it says to its client will stand here."));
     if (!ready) return;
+    QScrollBar& bar = *scroll_->verticalScrollBar();
+    const double place = bar.maximum() > 0 ? static_cast<double>(bar.value()) / bar.maximum() : 0.0;
     auto* paper = new QWidget;
     column_ = new QVBoxLayout(paper);
     column_->setContentsMargins(2 * kGrid_px, 2 * kGrid_px, 2 * kGrid_px, 2 * kGrid_px);
@@ -165,6 +168,8 @@ void ReportView::layOut() {
     }
     column_->addStretch();
     scroll_->setWidget(paper);
+    // The same pages in another size.
+    bar.setValue(qRound(place * bar.maximum()));
 }
 
 void ReportView::resizeEvent(QResizeEvent*) {

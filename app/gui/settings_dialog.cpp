@@ -3,6 +3,7 @@
 #include <QAction>
 #include <QCheckBox>
 #include <QDialogButtonBox>
+#include <QElapsedTimer>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -22,6 +23,12 @@
 #include "app/gui/theme.hpp"
 
 namespace terrawalk::gui {
+
+namespace {
+
+constexpr int kTurn_ms = 8;
+
+}
 
 /// A setting: name and meaning at the left, its editor at the right.
 class SettingRow : public QWidget {
@@ -83,13 +90,10 @@ SettingsDialog::SettingsDialog(SurveySession& session, QWidget* parent) : QDialo
     middle->addWidget(scroll_, 1);
     column->addLayout(middle, 1);
     column->addWidget(buildFooter());
-    build();
-    themeChanged();
-    filter();
+    plan();
+    connect(&next_parts_, &QTimer::timeout, this, &SettingsDialog::makeSomeParts);
     connect(scroll_->verticalScrollBar(), &QScrollBar::valueChanged, this, &SettingsDialog::followScroll);
     connect(&session_, &SurveySession::settingsChanged, this, &SettingsDialog::showChanged);
-    showChanged();
-    search_->setFocus();
     auto* find = new QAction(this);
     find->setShortcut(QKeySequence::Find);
     addAction(find);
@@ -150,7 +154,7 @@ QWidget* SettingsDialog::buildFooter() {
     return footer;
 }
 
-void SettingsDialog::build() {
+void SettingsDialog::plan() {
     auto* page = new QWidget;
     auto* column = new QVBoxLayout(page);
     column->setContentsMargins(3 * kGrid_px, 0, 2 * kGrid_px, 2 * kGrid_px);
@@ -159,15 +163,51 @@ void SettingsDialog::build() {
     nothing_->setObjectName("quiet");
     nothing_->setContentsMargins(0, 3 * kGrid_px, 0, 0);
     column->addWidget(nothing_);
+    scroll_->setWidget(page);
     for (const Step& step : steps()) {
         const QStringList prefixes = settingGroups(step);
         if (prefixes.isEmpty()) continue;
-        const int step_row = list_->count();
-        addStep(step);
-        for (const QString& prefix : prefixes) addGroup(step, prefix, step_row, *page);
+        parts_.emplace_back([this, step] { addStep(step); });
+        for (const QString& prefix : prefixes) {
+            parts_.emplace_back([this, step, prefix] { addGroup(step, prefix, step_icons_.back().first); });
+            for (const ParameterInfo& info : knownParameters()) {
+                const QString key = QString::fromStdString(info.key);
+                if (settingPrefix(key) == prefix) parts_.emplace_back([this, key] { addRow(key); });
+            }
+        }
     }
-    column->addStretch();
-    scroll_->setWidget(page);
+    parts_.emplace_back([this, column] {
+        column->addStretch();
+        themeChanged();
+        showChanged();
+        filter();
+    });
+}
+
+void SettingsDialog::makeSomeParts() {
+    QElapsedTimer turn;
+    turn.start();
+    while (parts_made_ < parts_.size() && turn.elapsed() < kTurn_ms) parts_[parts_made_++]();
+    if (parts_made_ < parts_.size()) return;
+    next_parts_.stop();
+    present();
+}
+
+void SettingsDialog::openAt(StepKind step) {
+    wanted_step_ = step;
+    if (parts_made_ < parts_.size()) {
+        next_parts_.start();
+    } else {
+        present();
+    }
+}
+
+void SettingsDialog::present() {
+    show();
+    raise();
+    activateWindow();
+    search_->setFocus();
+    scrollToStep();
 }
 
 void SettingsDialog::addStep(const Step& step) {
@@ -179,20 +219,14 @@ void SettingsDialog::addStep(const Step& step) {
     head->setFont(bold);
 }
 
-void SettingsDialog::addGroup(const Step& step, const QString& prefix, int step_row, QWidget& page) {
+void SettingsDialog::addGroup(const Step& step, const QString& prefix, int step_row) {
     Group group{prefix, settingGroupWords(prefix), step.kind, nullptr, {}, list_->count(), step_row};
     auto* heading = new QLabel(group.title);
     heading->setObjectName("heading");
     heading->setContentsMargins(0, 3 * kGrid_px, 0, kGrid_px / 2);
     heading->setToolTip(prefix);
     group.heading = heading;
-    page.layout()->addWidget(heading);
-    for (const ParameterInfo& info : knownParameters()) {
-        const QString key = QString::fromStdString(info.key);
-        if (settingPrefix(key) != prefix) continue;
-        group.rows.push_back(new SettingRow(session_, key));
-        page.layout()->addWidget(group.rows.back());
-    }
+    scroll_->widget()->layout()->addWidget(heading);
     // Without a picture, and below those that have one.
     QPixmap none(16, 16);
     none.fill(Qt::transparent);
@@ -200,16 +234,23 @@ void SettingsDialog::addGroup(const Step& step, const QString& prefix, int step_
     groups_.push_back(std::move(group));
 }
 
+void SettingsDialog::addRow(const QString& key) {
+    auto* row = new SettingRow(session_, key);
+    scroll_->widget()->layout()->addWidget(row);
+    row->sizeHint();  // finds the looks of its parts now, not of all rows in one turn
+    groups_.back().rows.push_back(row);
+}
+
 void SettingsDialog::themeChanged() {
     search_icon_->setIcon(icon("search", quietColour()));
     for (const auto& [row, name] : step_icons_) list_->item(row)->setIcon(icon(name, accentColour()));
 }
 
-void SettingsDialog::showStep(StepKind step) {
+void SettingsDialog::scrollToStep() {
     search_->clear();
     only_changed_->setChecked(false);
-    const auto first =
-        std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) { return group.step == step; });
+    const auto first = std::find_if(groups_.begin(), groups_.end(),
+                                    [&](const Group& group) { return group.step == wanted_step_; });
     if (first != groups_.end()) list_->setCurrentRow(first->list_row);
 }
 

@@ -159,8 +159,7 @@ void drawAxes(QPainter& painter, const TerrainFrame& frame, const QPalette& pale
 void drawPins(QPainter& painter, const TerrainFrame& frame, const MapScene& map, const QPalette& palette) {
     if (!map.survey) return;
     painter.setRenderHint(QPainter::Antialiasing);
-    const QFontMetricsF metrics(painter.font());
-    std::vector<QRectF> taken;
+    std::vector<MarkName> names;
     for (const PlacedMark& placed : map.survey->marks) {
         const QString name = QString::fromStdString(placed.mark.name);
         if (map.shown.hidden_marks.contains(name)) continue;
@@ -174,20 +173,11 @@ void drawPins(QPainter& painter, const TerrainFrame& frame, const MapScene& map,
         painter.drawLine(*foot, head);
         painter.setPen(QPen(QColor(20, 24, 28), 1.4));
         painter.drawLine(*foot, head);
-        {
-            const bool selected = highlighted;
-            drawMarkSymbol(painter, head, placed.mark, selected, selected ? selectedColour() : kMarkInk);
-        }
-        const QPointF label = head + QPointF(9, metrics.ascent() * 0.4);
-        const QRectF box(label.x(), label.y() - metrics.ascent(), metrics.horizontalAdvance(name),
-                         metrics.height());
-        const bool free = std::none_of(taken.begin(), taken.end(),
-                                       [&](const QRectF& other) { return other.intersects(box); });
-        if (!free && !highlighted) continue;
-        taken.push_back(box);
-        drawLabel(painter, label, name, palette);
+        drawMarkSymbol(painter, head, placed.mark, highlighted, highlighted ? selectedColour() : kMarkInk);
+        names.push_back({head, name, highlighted, pinHeight(frame), painter.opacity()});
     }
     painter.setOpacity(1.0);
+    drawMarkNames(painter, names, palette);
 }
 
 void drawPick(QPainter& painter, const TerrainFrame& frame, const Eigen::Vector3d& map_m) {

@@ -190,8 +190,9 @@ void shootAll(const QDir& folder, const QString& survey, Theme theme, QSize size
     }
     window.findChild<QAction*>("settings")->trigger();
     auto* settings = window.findChild<SettingsDialog*>();
+    while (!settings->isVisible()) QTest::qWait(10);
     camera.shoot("dialog_settings", settings);
-    settings->showStep(StepKind::Surface);
+    settings->openAt(StepKind::Surface);
     camera.shoot("dialog_settings_surface", settings);
     settings->findChild<QLineEdit*>("setting_search")->setText("sigma gnss");
     camera.shoot("dialog_settings_search", settings);

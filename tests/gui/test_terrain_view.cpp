@@ -126,6 +126,7 @@ class TestTerrainView : public QObject {
     void clickTellsOfThePlace();
     void cardSelectsTheStretch();
     void clickOnPinSelectsTheMark();
+    void namesOfMarksLieOnNothing();
     void dragTurnsAndShiftDragMoves();
     void keysTurnZoomAndReset();
     void layersChangeThePicture();
@@ -552,6 +553,31 @@ void TestTerrainView::clickOnPinSelectsTheMark() {
     const PlacedMark& mark = sample_.map->marks.back();
     view.pickAt(onPicture(view, mark.map_m));
     QCOMPARE(shown.selection->item(), QString::fromStdString(mark.mark.name));
+}
+
+void TestTerrainView::namesOfMarksLieOnNothing() {
+    std::vector<MarkName> marks;
+    for (const QPointF at : {QPointF(100, 100), {130, 100}, {112, 112}, {95, 125}, {300, 90}}) {
+        marks.push_back({at, QString("FP%1").arg(marks.size()), false, 30.0});
+    }
+    const QFontMetricsF metrics{QFont()};
+    const auto placed = placeMarkNames(metrics, marks);
+    QVERIFY(placed.size() >= 3);
+    for (const PlacedName& name : placed) {
+        for (const PlacedName& other : placed) QVERIFY(&name == &other || !name.box.intersects(other.box));
+        for (const MarkName& mark : marks) {
+            QVERIFY(!name.box.intersects({mark.at - QPointF(8, 8), QSizeF(16, 16)}));
+            QVERIFY(!name.box.intersects({mark.at.x() - 2, mark.at.y(), 4, mark.pin_px}));
+        }
+    }
+    // Who stands alone has the name at the right.
+    QVERIFY(placed.back().mark == &marks.back() && placed.back().start.x() > 300);
+    // No room at all: only the highlighted one is shown.
+    const std::vector<MarkName> heap(40, MarkName{{50, 50}, "FP"});
+    QVERIFY(placeMarkNames(metrics, heap).size() <= 4);
+    std::vector<MarkName> one = heap;
+    one.back().highlighted = true;
+    QVERIFY(placeMarkNames(metrics, one).back().mark == &one.back());
 }
 
 void TestTerrainView::dragTurnsAndShiftDragMoves() {

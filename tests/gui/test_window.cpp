@@ -514,6 +514,8 @@ void WindowTest::reportIsShownSavedAndPrinted() {
     // The pages have the width of the view, whatever that is.
     const auto* area = report->findChild<QScrollArea*>();
     const QSize before = window_->size();
+    QScrollBar& place = *area->verticalScrollBar();
+    place.setValue(place.maximum() / 2);
     for (const int wider_px : {0, 160, 0}) {
         window_->resize(before.width() + wider_px, before.height());
         const auto spare_px = [&] {
@@ -522,6 +524,8 @@ void WindowTest::reportIsShownSavedAndPrinted() {
         };
         QTRY_VERIFY_WITH_TIMEOUT(spare_px() >= 0 && spare_px() <= 40, kLong_ms);
         QTRY_VERIFY(!area->horizontalScrollBar()->isVisible());
+        // Nor does what is being read move away.
+        QVERIFY(std::abs(static_cast<double>(place.value()) / place.maximum() - 0.5) < 0.02);
     }
     QVERIFY(report->saveTo(scratch_->filePath("report.pdf")));
     QVERIFY(bytesOf(scratch_->filePath("report.pdf")).startsWith("%PDF"));
@@ -576,12 +580,13 @@ void WindowTest::allSettingsAreSearchedMarkedAndSetBack() {
     QElapsedTimer timer;
     timer.start();
     action("settings").trigger();
+    auto* dialog = window_->findChild<SettingsDialog*>();
+    QVERIFY(dialog != nullptr);
+    QTRY_VERIFY(dialog->isVisible());
     qInfo("all settings shown in %lld ms", timer.restart());
     QVERIFY(session().changeSetting("fusion.smooth", "false"));
     qInfo("one changed in %lld ms", timer.restart());
     action("undo").trigger();
-    auto* dialog = window_->findChild<SettingsDialog*>();
-    QVERIFY(dialog != nullptr);
     const auto shown = [&] {
         QStringList keys;
         for (const SettingEditor* editor : dialog->findChildren<SettingEditor*>())
