@@ -18,6 +18,10 @@ constexpr double kUsualSteps = 5.0;  // over the median of such differences, whe
 // half as odd as a jump has to be; a jump without it has to be twice as odd, or it was the gait.
 constexpr double kOpposite = 0.5;
 constexpr double kWayBack_s = 30.0;
+constexpr double kLongestDoubt_s = 60.0;
+constexpr std::size_t kRtkFixed = 2;
+constexpr double kUsualOff = 4.0;      // times the median distance from where others have the walker: a spike
+constexpr double kLeastSpike_m = 0.6;  // who turns on the spot is off by less from where others say he is
 
 double medianOf(std::vector<double>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -29,27 +33,33 @@ bool follows(const GnssReading& before, const GnssReading& after) {
     return before.fix_class == after.fix_class && after.time_s - before.time_s <= kLongestStep_s;
 }
 
+// How the walker goes, by the steps that lead to readings [first, last], but for one; none where fewer than
+// kSide are known.
+std::optional<Eigen::Vector2d> usualVelocity(std::span<const GnssReading> readings, std::size_t first,
+                                             std::size_t last, std::optional<std::size_t> but_for = {}) {
+    std::vector<double> east, north;
+    for (std::size_t j = first; j <= last; ++j) {
+        const double dt = readings[j].time_s - readings[j - 1].time_s;
+        if (j == but_for || dt <= 0.0 || !follows(readings[j - 1], readings[j])) continue;
+        const Eigen::Vector2d velocity = (readings[j].en_m - readings[j - 1].en_m) / dt;
+        east.push_back(velocity.x());
+        north.push_back(velocity.y());
+    }
+    if (east.size() < kSide) return std::nullopt;
+    return Eigen::Vector2d(medianOf(east), medianOf(north));
+}
+
 // By how much each step differs from how the walker goes; step i leads to reading i. Zero where none is
 // known.
 std::vector<Eigen::Vector2d> oddSteps(std::span<const GnssReading> readings) {
     std::vector<Eigen::Vector2d> odd_m(readings.size(), Eigen::Vector2d::Zero());
-    std::vector<double> east, north;
     for (std::size_t i = 1; i < readings.size(); ++i) {
         if (!follows(readings[i - 1], readings[i])) continue;
-        east.clear();
-        north.clear();
         const std::size_t from = i > kSide ? i - kSide : 1;
-        for (std::size_t j = from; j <= std::min(i + kSide, readings.size() - 1); ++j) {
-            const double dt = readings[j].time_s - readings[j - 1].time_s;
-            if (j == i || dt <= 0.0 || !follows(readings[j - 1], readings[j])) continue;
-            const Eigen::Vector2d velocity = (readings[j].en_m - readings[j - 1].en_m) / dt;
-            east.push_back(velocity.x());
-            north.push_back(velocity.y());
-        }
-        if (east.size() < kSide) continue;
-        const Eigen::Vector2d usual(medianOf(east), medianOf(north));
+        const auto usual = usualVelocity(readings, from, std::min(i + kSide, readings.size() - 1), i);
+        if (!usual) continue;
         const double dt = readings[i].time_s - readings[i - 1].time_s;
-        odd_m[i] = readings[i].en_m - readings[i - 1].en_m - usual * dt;
+        odd_m[i] = readings[i].en_m - readings[i - 1].en_m - *usual * dt;
     }
     return odd_m;
 }
@@ -62,6 +72,44 @@ double usualOddStep(std::span<const GnssReading> readings, const std::vector<Eig
         if (readings[i].fix_class == fix_class && !odd_m[i].isZero(0.0)) values.push_back(odd_m[i].norm());
     }
     return values.empty() ? 0.0 : medianOf(values);
+}
+
+// How far a reading lies off from where those about it have the walker; zero without three on either side.
+double offFromOthers(std::span<const GnssReading> readings, std::size_t i) {
+    if (i < kSide || i + kSide >= readings.size()) return 0.0;
+    const std::size_t from = i - kSide;
+    const std::size_t to = i + kSide;
+    if (!follows(readings[from], readings[i]) || !follows(readings[i], readings[to])) return 0.0;
+    const auto usual = usualVelocity(readings, from + 1, to);
+    if (!usual) return 0.0;
+    std::vector<double> east, north;
+    for (std::size_t j = from; j <= to; ++j) {
+        const Eigen::Vector2d here = readings[j].en_m + *usual * (readings[i].time_s - readings[j].time_s);
+        east.push_back(here.x());
+        north.push_back(here.y());
+    }
+    return (readings[i].en_m - Eigen::Vector2d(medianOf(east), medianOf(north))).norm();
+}
+
+// Readings that stand alone. Their steps would hide the jumps, or look like some; robust rows deal with them.
+std::vector<bool> spikes(std::span<const GnssReading> readings) {
+    std::vector<double> off_m(readings.size());
+    std::vector<std::vector<double>> of_class;
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        off_m[i] = offFromOthers(readings, i);
+        of_class.resize(std::max(of_class.size(), readings[i].fix_class + 1));
+        if (off_m[i] > 0.0) of_class[readings[i].fix_class].push_back(off_m[i]);
+    }
+    std::vector<double> least_m;
+    for (std::vector<double>& values : of_class) {
+        least_m.push_back(values.empty() ? kLeastSpike_m
+                                         : std::max(kLeastSpike_m, kUsualOff * medianOf(values)));
+    }
+    std::vector<bool> spike(readings.size());
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        spike[i] = off_m[i] > least_m[readings[i].fix_class];
+    }
+    return spike;
 }
 
 // How odd a step of each reading must be for a jump.
@@ -123,9 +171,11 @@ struct Level {
     std::size_t readings = 0;
 };
 
-// Readings [from, end) have one kind of fix. The level that most of them are on is right.
-void doubtStretches(std::span<const Eigen::Vector2d> jump_m, std::size_t from, std::size_t end,
-                    std::vector<double>& doubted_m) {
+// Readings [from, end) have one kind of fix. The level that most of them are on is right; but where positions
+// drift by as much as they jump, the way to a level far off in time is not known, and a stretch that lasts is
+// believed.
+void doubtStretches(std::span<const GnssReading> readings, std::span<const Eigen::Vector2d> jump_m,
+                    std::size_t from, std::size_t end, std::vector<double>& doubted_m) {
     std::vector<Level> levels{{}};
     std::vector<std::size_t> level_of;
     std::size_t level = 0;
@@ -155,18 +205,39 @@ void doubtStretches(std::span<const Eigen::Vector2d> jump_m, std::size_t from, s
     for (std::size_t i = from; i < end; ++i) {
         doubted_m[i] = (levels[level_of[i - from]].off_m - right->off_m).norm();
     }
+    if (readings[from].fix_class == kRtkFixed) return;
+    for (std::size_t i = from; i < end;) {
+        std::size_t after = i + 1;
+        while (after < end && (doubted_m[after] > 0.0) == (doubted_m[i] > 0.0)) ++after;
+        if (readings[after - 1].time_s - readings[i].time_s > kLongestDoubt_s) {
+            std::fill(doubted_m.begin() + static_cast<std::ptrdiff_t>(i),
+                      doubted_m.begin() + static_cast<std::ptrdiff_t>(after), 0.0);
+        }
+        i = after;
+    }
 }
 
 }  // namespace
 
 std::vector<double> gnssJumps(std::span<const GnssReading> readings) {
-    const std::vector<Eigen::Vector2d> jump_m = jumpsBefore(readings);
-    std::vector<double> doubted_m(readings.size(), 0.0);
-    for (std::size_t from = 0; from < readings.size();) {
+    const std::vector<bool> spike = spikes(readings);
+    std::vector<GnssReading> sound;
+    std::vector<std::size_t> last_sound;  // among them, up to each reading; the first before there is any
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        if (!spike[i]) sound.push_back(readings[i]);
+        last_sound.push_back(std::max<std::size_t>(sound.size(), 1) - 1);
+    }
+    const std::vector<Eigen::Vector2d> jump_m = jumpsBefore(sound);
+    std::vector<double> stretch_m(sound.size(), 0.0);
+    for (std::size_t from = 0; from < sound.size();) {
         std::size_t end = from + 1;
-        while (end < readings.size() && readings[end].fix_class == readings[from].fix_class) ++end;
-        doubtStretches(jump_m, from, end, doubted_m);
+        while (end < sound.size() && sound[end].fix_class == sound[from].fix_class) ++end;
+        doubtStretches(sound, jump_m, from, end, stretch_m);
         from = end;
+    }
+    std::vector<double> doubted_m(readings.size(), 0.0);
+    for (std::size_t i = 0; i < readings.size() && !sound.empty(); ++i) {
+        doubted_m[i] = stretch_m[last_sound[i]];
     }
     return doubted_m;
 }

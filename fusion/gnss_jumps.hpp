@@ -26,7 +26,9 @@ struct GnssReading {
 /// which may be smaller; one that does not must be twice as large to count. Jumps part levels, and that of
 /// the most readings with one kind of fix is right: errors come and go, and the truth stays where it is.
 /// Where a receiver is wrong in the same way for most of the time, the wrong level is doubted; no method that
-/// sees positions alone knows better.
+/// sees positions alone knows better. Positions without an RTK fix drift by as much as they jump: there a
+/// stretch of more than a minute is believed. Single readings that stand off are no stretch, robust rows deal
+/// with them; they are passed over, so that their steps are no jumps.
 /// @param readings  of one run, ordered by time
 /// @return for each reading zero, or by how much [m] its level is off
 [[nodiscard]] std::vector<double> gnssJumps(std::span<const GnssReading> readings);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "fusion/random_numbers.hpp"
@@ -79,10 +80,54 @@ TEST(GnssJumps, ASmallStepThatDoesNotComeBackIsGait) {
     expectDoubted(readings, 0, 0);
 }
 
-TEST(GnssJumps, ASingleOutlierIsDoubtedAlone) {
+// Robust rows deal with it.
+TEST(GnssJumps, ASingleOutlierIsNoStretch) {
     std::vector<GnssReading> readings = walk();
     shift(readings, 100, 101, 3.0);
-    expectDoubted(readings, 100, 101);
+    expectDoubted(readings, 0, 0);
+    shift(readings, 60, 90, 0.4);  // nor does it hide one
+    shift(readings, 75, 76, -2.0);
+    expectDoubted(readings, 60, 90);
+}
+
+// Half an hour of positions that drift by a metre and more.
+std::vector<GnssReading> driftingWalk() {
+    RandomNumbers random({8});
+    std::vector<GnssReading> readings;
+    Eigen::Vector2d drift = Eigen::Vector2d::Zero();
+    for (int i = 0; i < 9000; ++i) {
+        const double t = 0.2 * i;
+        drift = 0.996 * drift + 0.1 * Eigen::Vector2d(random.normal(), random.normal());
+        const Eigen::Vector2d noise(random.normal(), random.normal());
+        const Eigen::Vector2d at(30.0 * std::cos(0.03 * t), 30.0 * std::sin(0.03 * t));
+        readings.push_back({t, at + drift + 0.3 * noise, 0.3, 0});
+    }
+    return readings;
+}
+
+std::ptrdiff_t doubted(const std::vector<GnssReading>& readings) {
+    const std::vector<double> jumps = gnssJumps(readings);
+    return std::count_if(jumps.begin(), jumps.end(), [](double jump_m) { return jump_m > 0.0; });
+}
+
+// Their steps once made levels that most of a walk seemed to stand off from.
+TEST(GnssJumps, ManyOutliersMakeNoStretches) {
+    std::vector<GnssReading> readings = driftingWalk();
+    EXPECT_EQ(doubted(readings), 0);
+    RandomNumbers random({9});
+    for (GnssReading& reading : readings) {
+        const Eigen::Vector2d outlier(random.normal(), random.normal());
+        if (random.normal() > 1.28) reading.en_m += 6.0 * outlier;
+    }
+    EXPECT_LT(doubted(readings), 180);  // 2 %
+}
+
+TEST(GnssJumps, ALastingJumpWithoutAnRtkFixIsBelieved) {
+    std::vector<GnssReading> readings = driftingWalk();
+    shift(readings, 4000, 4050, 4.0);
+    EXPECT_EQ(doubted(readings), 50);
+    shift(readings, 6000, readings.size(), 4.0);
+    EXPECT_EQ(doubted(readings), 50);
 }
 
 // Where noise is worse than stated, its steps are not jumps.
