@@ -26,6 +26,7 @@ std::vector<RowGroup> adjustmentGroups(bool robust) {
             f == kRtkFixed ? 1.0 : 3.0);
         set(kGnssWalkV + f, "GNSS drift, height, " + kFixes[f], Loss::Cauchy, 2.0, true, 0.3, 3.0);
     }
+    set(kGnssBias, "GNSS bias of a run", Loss::Square, 3.0, true, 0.2, 6.0);
     set(kDoppler, "GNSS velocity", Loss::Cauchy, 3.0, true);
     set(kBarometer, "barometer noise", Loss::Huber, 2.0, true);
     set(kBarometerDrift, "barometer drift", Loss::Square, 3.0, true, 0.1, 6.0);

@@ -28,7 +28,7 @@ class CrossoverCorrector {
   public:
     CrossoverCorrector(const Survey& survey, std::span<const RunStart> starts, const FusionOptions& options,
                        const std::stop_token& stop)
-        : options_(options), stop_(stop), crossovers_(survey, options_, runs_, array_iron_) {
+        : options_(options), stop_(stop), crossovers_(survey, options_, runs_, shared_.iron) {
         options_.joint.knot_s = kKnot_s;
         options_.accelerometer.use = false;  // has no part here
         const LocalFrame frame = survey.frame();
@@ -49,7 +49,7 @@ class CrossoverCorrector {
             if (round == 0) result.misfit_before_m = rootMeanSquareMisfit(crossovers_.pairs());
             groups[kPair].scale = groups[kMarkPass].scale = kPairScales[round];
             SparseLeastSquares system(unknowns_, groups, stop_);
-            SensorRows sensors(options_, array_iron_, true, system);
+            SensorRows sensors(options_, shared_, true, system);
             for (RunModel& run : runs_) {
                 sensors.addTies(run);
                 addHold(run, system);
@@ -116,7 +116,7 @@ class CrossoverCorrector {
     FusionOptions options_;
     const std::stop_token& stop_;
     std::vector<RunModel> runs_;
-    HardIron array_iron_;
+    SharedErrors shared_;
     CrossoverRows crossovers_;
     std::size_t unknowns_ = 0;
 };

@@ -194,6 +194,8 @@ struct LastingErrorOptions {
     double gnss_correlation_s = 100.0;    ///< of the position error; its sigma is that of the fix
     double gnss_white_share = 0.25;       ///< white noise as a share of the sigma of the fix
     double gnss_white_share_fixed = 0.5;  ///< the same for RTK fixed
+    double gnss_bias_sigma_m = 1.0;       ///< per axis, without RTK, the same in all runs of a day
+    double gnss_bias_run_sigma_m = 0.4;   ///< by which a run differs from that
     double heading_sigma_deg = 3.0;       ///< compass error that wanders
     double heading_correlation_s = 400.0;
     double hard_iron_sigma_deg = 2.5;              ///< A sin yaw + B cos yaw, the same in all runs

@@ -23,8 +23,7 @@ class JointAdjuster {
         : survey_(survey), options_(options), progress_(progress), stop_(std::move(stop)) {
         const LocalFrame frame = survey.frame();
         for (const RunStart& start : starts) runs_.push_back(makeRunModel(start, frame, options));
-        array_iron_.sin.unknown = unknowns_++;
-        array_iron_.cos.unknown = unknowns_++;
+        for (SingleUnknown* one : sharedUnknowns()) one->unknown = unknowns_++;
         for (RunModel& run : runs_) numberUnknowns(run, unknowns_);
     }
 
@@ -116,8 +115,12 @@ class JointAdjuster {
     static constexpr double kHeightDoubt = 1.8;
     static constexpr double kGreatestHeightMargin = 2.8;
 
+    std::array<SingleUnknown*, 4> sharedUnknowns() {
+        return {&shared_.iron.sin, &shared_.iron.cos, &shared_.gnss_bias[0], &shared_.gnss_bias[1]};
+    }
+
     void addRows(SparseLeastSquares& system, bool with_pairs) {
-        SensorRows sensors(options_, array_iron_, settled_, system);
+        SensorRows sensors(options_, shared_, settled_, system);
         sensors.addArray();
         for (RunModel& run : runs_) sensors.addRun(run);
         if (with_pairs) crossovers_.addTo(system);
@@ -125,8 +128,8 @@ class JointAdjuster {
 
     // Returns how far the track moved.
     double takeStep(const Eigen::VectorXd& solution) {
-        for (SingleUnknown* part : {&array_iron_.sin, &array_iron_.cos}) {
-            part->value += solution[static_cast<Eigen::Index>(part->unknown)];
+        for (SingleUnknown* one : sharedUnknowns()) {
+            one->value += solution[static_cast<Eigen::Index>(one->unknown)];
         }
         double step_m = 0.0;
         for (RunModel& run : runs_) step_m = std::max(step_m, takeSolution(run, solution));
@@ -236,7 +239,7 @@ class JointAdjuster {
             epoch.covariance.bottomRightCorner<3, 3>() =
                 (here + there - cross - cross.transpose()) / squared(dt);
             if (run.has_heading) {
-                epoch.attitude.yaw_rad = wrapAngle(trueYaw(run, array_iron_, i));
+                epoch.attitude.yaw_rad = wrapAngle(trueYaw(run, shared_.iron, i));
                 const std::size_t unknown = run.has_gyro ? run.turn.unknown(run.turn_at[i].knot)
                                                          : run.psi.unknown(run.psi_at[i].knot);
                 epoch.sigma_heading_rad =
@@ -251,8 +254,8 @@ class JointAdjuster {
     Progress& progress_;
     std::stop_token stop_;
     std::vector<RunModel> runs_;
-    HardIron array_iron_;
-    CrossoverRows crossovers_{survey_, options_, runs_, array_iron_};
+    SharedErrors shared_;
+    CrossoverRows crossovers_{survey_, options_, runs_, shared_.iron};
     std::size_t unknowns_ = 0;
     double height_inflation_ = 1.0;
     double plan_inflation_ = 1.0;

@@ -24,7 +24,8 @@ struct JointSolution {
 /// One sparse least-squares adjustment of all runs: track, GNSS, barometer, heading and flow errors, held
 /// together by ties to known marks and by crossovers, pairs of passes over the same ground.
 ///
-///     GNSS   z = p + g + noise           g: Gauss-Markov, begun anew where the fix code changes
+///     GNSS   z = p + g + d + noise       g: Gauss-Markov, begun anew where the fix code changes;
+///                                        d: in plan and without RTK, of the run, most of it of the day
 ///     baro   h = u + b + w + noise       b: random walk, w: Gauss-Markov (gusts)
 ///     flow   p(t2) - p(t1) = sum R(yaw - psi - A sin yaw - B cos yaw) f dt / scale
 ///     gyro   change of the compass error from the turn that the gyro saw

@@ -42,17 +42,34 @@ void SensorRows::addGnss(const RunModel& run) {
             row_.clear();
             position(run, gnss.epoch, axis, 1.0);
             segment.error.addTo(row_, place, 1.0, axis);
-            system_.addRow((axis == 2 ? kGnssV : kGnssH) + segment.fix_class, row_.all(),
-                           gnss.enu_m[a] - run.track_m[gnss.epoch][a] - segment.error.value(place, axis),
-                           axis == 2 ? gnss.white_up_m : gnss.white_m);
+            double bias_m = 0.0;
+            if (axis < 2 && gnss.fix_class == 0) {
+                row_.add(run.gnss_bias[axis].unknown, 1.0);
+                bias_m = run.gnss_bias[axis].value;
+            }
+            system_.addRow(
+                (axis == 2 ? kGnssV : kGnssH) + segment.fix_class, row_.all(),
+                gnss.enu_m[a] - run.track_m[gnss.epoch][a] - segment.error.value(place, axis) - bias_m,
+                axis == 2 ? gnss.white_up_m : gnss.white_m);
         }
     }
+    if (run.has_single) addGnssBias(run);
     for (const GnssSegment& segment : run.segments) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             addGaussMarkov(segment.error, axis, axis == 2 ? segment.sigma_up_m : segment.sigma_m,
                            options_.lasting.gnss_correlation_s,
                            (axis == 2 ? kGnssWalkV : kGnssWalkH) + segment.fix_class);
         }
+    }
+}
+
+// What a receiver without RTK errs by for hours: all runs share most of it.
+void SensorRows::addGnssBias(const RunModel& run) {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        const SingleUnknown& day = shared_.gnss_bias[axis];
+        const SingleUnknown& own = run.gnss_bias[axis];
+        system_.addRow(kGnssBias, {{own.unknown, 1.0}, {day.unknown, -1.0}}, day.value - own.value,
+                       options_.lasting.gnss_bias_run_sigma_m);
     }
 }
 

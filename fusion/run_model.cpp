@@ -258,6 +258,7 @@ class Preparer {
                                         {}});
             }
             gnss.segment = *current;
+            run.has_single = run.has_single || gnss.fix_class == 0;
             run.segments[*current].error.cover(run.time(gnss.epoch), options_.joint.gnss_knot_s);
         }
     }
@@ -342,6 +343,9 @@ void numberUnknowns(RunModel& run, std::size_t& next) {
         segment.error.place(next, 3);
         take(3 * segment.error.knots());
     }
+    if (run.has_single) {
+        for (SingleUnknown& bias : run.gnss_bias) bias.unknown = take(1);
+    }
     if (run.has_barometer) {
         run.drift.place(next, 1);
         take(run.drift.knots());
@@ -394,6 +398,11 @@ double takeSolution(RunModel& run, const Eigen::VectorXd& solution) {
     const double step_m = moveTrack(run, solution);
     run.level.take(solution);
     for (GnssSegment& segment : run.segments) segment.error.take(solution);
+    if (run.has_single) {
+        for (SingleUnknown& bias : run.gnss_bias) {
+            bias.value += solution[static_cast<Eigen::Index>(bias.unknown)];
+        }
+    }
     if (run.has_barometer) {
         run.drift.take(solution);
         run.gust.take(solution);

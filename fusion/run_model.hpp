@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -41,6 +42,12 @@ struct HardIron {
     SingleUnknown sin, cos;
 };
 
+/// Errors that all runs of a day share.
+struct SharedErrors {
+    HardIron iron;                           ///< of the array
+    std::array<SingleUnknown, 2> gnss_bias;  ///< of positions without RTK: east, north
+};
+
 /// A run as the adjustment sees it: what its sensors offer, and what is not known of it.
 struct RunModel {
     const RunStart* start = nullptr;
@@ -61,6 +68,8 @@ struct RunModel {
     std::vector<GnssEpoch> gnss;
     HardIron iron;  // of this run, beside that of the array
     SingleUnknown scale, axes, gyro_bias, gyro_scale;
+    std::array<SingleUnknown, 2> gnss_bias;  // of positions without RTK, with what all runs share
+    bool has_single = false;                 // such positions
     bool has_flow = false, has_heading = false, has_gyro = false, has_barometer = false;
     // Optical flow of each epoch, forward and left; where there was none, the mean of those around it.
     std::vector<Eigen::Vector2d> flow_mps;

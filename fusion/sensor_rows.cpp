@@ -9,6 +9,9 @@ void SensorRows::addArray() {
     for (const SingleUnknown* part : {&array_iron_.sin, &array_iron_.cos}) {
         system_.addRow(kPrior, {{part->unknown, 1.0}}, -part->value, iron);
     }
+    for (const SingleUnknown& bias : shared_.gnss_bias) {
+        system_.addRow(kPrior, {{bias.unknown, 1.0}}, -bias.value, options_.lasting.gnss_bias_sigma_m);
+    }
 }
 
 void SensorRows::addRun(RunModel& run) {

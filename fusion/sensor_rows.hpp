@@ -13,11 +13,11 @@ namespace terrawalk {
 /// adjustJointly() for what the rows mean. For one round; not thread-safe.
 class SensorRows {
   public:
-    /// @param array_iron  of the array, the same in all runs
-    /// @param settled     whether the track is near its place
-    SensorRows(const FusionOptions& options, const HardIron& array_iron, bool settled,
+    /// @param shared   what all runs share
+    /// @param settled  whether the track is near its place
+    SensorRows(const FusionOptions& options, const SharedErrors& shared, bool settled,
                SparseLeastSquares& system)
-        : options_(options), array_iron_(array_iron), settled_(settled), system_(system) {}
+        : options_(options), shared_(shared), array_iron_(shared.iron), settled_(settled), system_(system) {}
 
     void addArray();
     void addRun(RunModel& run);  ///< all of its sensors, and its ties
@@ -27,6 +27,7 @@ class SensorRows {
     // position_rows.cpp
     void addStart(const RunModel& run);
     void addGnss(const RunModel& run);
+    void addGnssBias(const RunModel& run);
     void addGaussMarkov(const KnotChain& chain, std::size_t part, double sigma, double correlation_s,
                         std::size_t group);
     void addDoppler(const RunModel& run);
@@ -50,6 +51,7 @@ class SensorRows {
     }
 
     const FusionOptions& options_;
+    const SharedErrors& shared_;
     const HardIron& array_iron_;
     bool settled_;
     SparseLeastSquares& system_;

@@ -551,6 +551,11 @@ std::vector<Parameter> surfaceParameters() {
                TERRAWALK_FIELD(fusion.lasting.gnss_white_share)),
         number("fusion.lasting.gnss_white_share_fixed", 0.001, 1, "the same for RTK fixed",
                TERRAWALK_FIELD(fusion.lasting.gnss_white_share_fixed)),
+        number("fusion.lasting.gnss_bias_sigma_m", 0.0001, 1000,
+               "bias of GNSS positions without RTK, shared by all runs",
+               TERRAWALK_FIELD(fusion.lasting.gnss_bias_sigma_m)),
+        number("fusion.lasting.gnss_bias_run_sigma_m", 0.0001, 1000, "by which a run differs from that",
+               TERRAWALK_FIELD(fusion.lasting.gnss_bias_run_sigma_m)),
         number("fusion.lasting.heading_sigma_deg", 0.01, 180, "compass error that wanders",
                TERRAWALK_FIELD(fusion.lasting.heading_sigma_deg)),
         number("fusion.lasting.heading_correlation_s", 1, 100000, "time in which it changes",
@@ -785,7 +790,7 @@ std::vector<Parameter> editParameters() {
 }
 
 // An option that is added without a parameter could be neither set nor reported.
-static_assert(sizeof(FusionOptions) == 1240, "add the new option to fusionParameters()");
+static_assert(sizeof(FusionOptions) == 1256, "add the new option to fusionParameters()");
 static_assert(sizeof(AukfOptions) == 168, "add the new option to aukfParameters()");
 static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
 static_assert(sizeof(PointCleaningOptions) == 104, "add the new option to cleaningParameters()");

@@ -4021,6 +4021,14 @@
             <source>lines</source>
             <translation>绘制的线</translation>
         </message>
+        <message>
+            <source>lasting gnss bias sigma</source>
+            <translation>持续误差 GNSS 偏差 σ</translation>
+        </message>
+        <message>
+            <source>lasting gnss bias run sigma</source>
+            <translation>持续误差 单次 GNSS 偏差 σ</translation>
+        </message>
     </context>
     <context>
         <name>SettingChoice</name>
@@ -5101,6 +5109,10 @@
         <message>
             <source>lines that the surface keeps to, beside those of the survey's file</source>
             <translation>曲面所遵循的线，另加测量文件中的线</translation>
+        </message>
+        <message>
+            <source>bias of GNSS positions without RTK, shared by all runs</source>
+            <translation>无 RTK 时 GNSS 位置的偏差，所有测线共有</translation>
         </message>
     </context>
     <context>
