@@ -373,6 +373,7 @@ TEST(JointAdjustment, OddSensorsAreFoundOut) {
     day.area_east_m = 30.0;
     day.area_north_m = 30.0;
     day.fixed_point_runs = 4;
+    day.area_epochs = 3000;
     const SimulatedSurvey simulated = simulatedSurvey(day);
     const std::size_t walk = simulated.survey.runs.size() - 1;
     for (const OddSensor& sensor : kSensors) {
