@@ -582,6 +582,7 @@ void WindowTest::allSettingsAreSearchedMarkedAndSetBack() {
     action("settings").trigger();
     auto* dialog = window_->findChild<SettingsDialog*>();
     QVERIFY(dialog != nullptr);
+    QVERIFY(!dialog->isVisible());  // made in turns of the event loop, not in one
     QTRY_VERIFY(dialog->isVisible());
     qInfo("all settings shown in %lld ms", timer.restart());
     QVERIFY(session().changeSetting("fusion.smooth", "false"));
