@@ -5,6 +5,7 @@
 #include <array>
 
 #include "fusion/drift_model.hpp"
+#include "fusion/flow_screen.hpp"
 #include "fusion/gnss_jumps.hpp"
 #include "fusion/rts_smoother.hpp"
 #include "fusion/run_filter.hpp"
@@ -65,7 +66,8 @@ Result<DriftFilterResult> filterWithDrifts(const Survey& survey, const Run& run,
                                            std::stop_token stop) {
     const LocalFrame frame = survey.frame();
     const FusionOptions reading_options = readingOptions(options);
-    const ReadingContext context{run.log, reading_options, frame, attitudes, reference};
+    const FlowRejections flow = flowRejections(run.log, attitudes, options.flow);
+    const ReadingContext context{run.log, reading_options, frame, attitudes, reference, flow};
     DriftModel model(context);
     RunFilter filter(context, run, model);
     const std::size_t n = run.log.size();

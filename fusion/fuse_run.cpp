@@ -7,6 +7,7 @@
 
 #include "fusion/aukf_trajectory.hpp"
 #include "fusion/drift_filter.hpp"
+#include "fusion/flow_screen.hpp"
 #include "fusion/raw_trajectory.hpp"
 #include "fusion/rts_smoother.hpp"
 #include "fusion/run_filter.hpp"
@@ -124,7 +125,8 @@ Result<FusedRun> filteredRun(const Survey& survey, const Run& run, const FusionO
                              const std::vector<EpochAttitude>& attitudes, const RunReference& reference,
                              Progress& progress, std::stop_token stop) {
     const LocalFrame frame = survey.frame();
-    const ReadingContext context{run.log, options, frame, attitudes, reference};
+    const FlowRejections flow = flowRejections(run.log, attitudes, options.flow);
+    const ReadingContext context{run.log, options, frame, attitudes, reference, flow};
     NineStates model(context);
     RunFilter filter(context, run, model);
     const std::size_t n = run.log.size();

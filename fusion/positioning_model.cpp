@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "fusion/flow_screen.hpp"
+
 namespace terrawalk {
 
 namespace {
@@ -50,6 +52,7 @@ class LogMeasurer {
           options_(options),
           frame_(survey.frame()),
           attitudes_(attitudes),
+          flow_(flowRejections(run.log, attitudes, options.flow)),
           reference_(reference),
           ledger_(ledger),
           near_enu_m_(reference.start_enu_m) {}
@@ -114,7 +117,7 @@ class LogMeasurer {
     void measureFlow(std::size_t i, MeasurementEpoch& epoch) {
         const FlowOptions& flow = options_.flow;
         const EpochAttitude& attitude = attitudes_[i];
-        if (!flow.use || !takes(Sensor::OpticalFlow, flowRejection(log_, i, attitude, flow))) return;
+        if (!flow.use || !takes(Sensor::OpticalFlow, flow_[i])) return;
         const Eigen::Vector2d body_mps(log_.value(Channel::FlowForward, i), log_.value(Channel::FlowLeft, i));
         const Eigen::Vector2d velocity_mps = Eigen::Rotation2Dd(attitude.attitude.yaw_rad) * body_mps;
         const double variance =
@@ -161,6 +164,7 @@ class LogMeasurer {
     const FusionOptions& options_;
     const LocalFrame frame_;
     const std::vector<EpochAttitude>& attitudes_;
+    const FlowRejections flow_;
     const RunReference& reference_;
     SensorLedger& ledger_;
     Eigen::Vector3d near_enu_m_;  // the latest measured position, for what depends on it weakly

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "fusion/flow_screen.hpp"
 #include "fusion/sensor_ledger.hpp"
 
 namespace terrawalk {
@@ -29,6 +30,7 @@ class RawRun {
           options_(options),
           frame_(survey.frame()),
           attitudes_(attitudes),
+          flow_(flowRejections(run.log, attitudes, options.flow)),
           reference_(reference) {
         position_.value = reference.start_enu_m;
         position_.variance = reference.start_sigma_m.array().square();
@@ -85,7 +87,7 @@ class RawRun {
 
     void takeVelocity(std::size_t i) {
         const EpochAttitude& attitude = attitudes_[i];
-        if (takes(Sensor::OpticalFlow, flowRejection(log_, i, attitude, options_.flow))) {
+        if (takes(Sensor::OpticalFlow, flow_[i])) {
             const Eigen::Vector2d flow(log_.value(Channel::FlowForward, i), log_.value(Channel::FlowLeft, i));
             velocity_.value.head<2>() = Eigen::Rotation2Dd(attitude.attitude.yaw_rad) * flow;
             velocity_.variance.head<2>().setConstant(
@@ -141,6 +143,7 @@ class RawRun {
     const FusionOptions& options_;
     const LocalFrame frame_;
     const std::vector<EpochAttitude>& attitudes_;
+    const FlowRejections flow_;
     const RunReference& reference_;
     SensorLedger ledger_;
     Estimate position_;  // as it was when it was measured

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fusion/flow_screen.hpp"
 #include "fusion/squared.hpp"
 
 namespace terrawalk {
@@ -27,14 +28,14 @@ class Preparer {
         for (const EpochAttitude& a : start.attitudes) run.yaw_rad.push_back(a.attitude.yaw_rad);
         prepareGnss(run);
         run.has_barometer = options_.barometer.use && start.reference.barometer_zero_m.has_value();
+        const FlowRejections flow = flowRejections(log, start.attitudes, options_.flow);
         for (std::size_t i = 0; i < log.size(); ++i) {
             run.correction.cover(log.time_s[i], options_.joint.knot_s);
             if (start.attitudes[i].heading_known) {
                 run.psi.cover(log.time_s[i], options_.joint.heading_knot_s);
                 run.has_heading = true;
             }
-            const auto rejection = flowRejection(log, i, start.attitudes[i], options_.flow);
-            if (options_.flow.use && rejection && rejection->empty()) run.has_flow = true;
+            if (options_.flow.use && flow[i] == "") run.has_flow = true;
             if (run.has_barometer && barometerRejection(log, i) == "") {
                 run.drift.cover(log.time_s[i], options_.joint.barometer_knot_s);
                 run.gust.cover(log.time_s[i], options_.joint.knot_s);
@@ -43,7 +44,7 @@ class Preparer {
         if (run.has_heading) prepareTurn(run);
         prepareAcceleration(run);
         run.above_ground_m = withoutSpikes(run);
-        prepareFlow(run);
+        prepareFlow(run, flow);
         return run;
     }
 
@@ -150,13 +151,13 @@ class Preparer {
 
     // Where the flow is silent, a walk goes on as it did before and will after: the mean of the flow on
     // either side of the gap, linear between, less sure the farther away they are.
-    void prepareFlow(RunModel& run) const {
+    void prepareFlow(RunModel& run, const FlowRejections& rejections) const {
         const ArrayLog& log = *run.log;
         const std::size_t n = run.size();
         run.flow_mps.assign(n, Eigen::Vector2d::Constant(kMissing));
         run.bridge_sigma_mps.assign(n, 0.0);
         for (std::size_t i = 0; i < n; ++i) {
-            if (options_.flow.use && flowRejection(log, i, run.start->attitudes[i], options_.flow) == "") {
+            if (options_.flow.use && rejections[i] == "") {
                 run.flow_mps[i] = {log.value(Channel::FlowForward, i), log.value(Channel::FlowLeft, i)};
             }
         }

@@ -180,8 +180,7 @@ void readFlow(const ReadingContext& context, std::size_t i, const SensorMemory& 
     const EpochAttitude& attitude = context.attitudes[i];
     const double time_s = log.time_s[i];
     const double since_s = time_s - memory.lastUsed(Sensor::OpticalFlow);
-    const auto rejection = flowRejection(log, i, attitude, options);
-    if (rejection) {
+    if (const auto rejection = context.flow_rejections[i]) {
         Reading reading(Sensor::OpticalFlow, *rejection);
         if (rejection->empty()) {
             const Eigen::Vector2d flow_mps(log.value(Channel::FlowForward, i),
@@ -348,80 +347,6 @@ std::optional<GnssPosition> gnssPosition(const ArrayLog& log, std::size_t epoch,
     }
     if (!present(h_ell_m)) position.enu_m.z() = kMissing;
     return position;
-}
-
-namespace {
-
-Eigen::Vector2d flowAt(const ArrayLog& log, std::size_t epoch) {
-    return {log.value(Channel::FlowForward, epoch), log.value(Channel::FlowLeft, epoch)};
-}
-
-// Modules say "nothing seen" as a speed of nothing. Who walks does not stand still, to the last digit, from
-// one record to the next.
-bool silentFlow(const ArrayLog& log, std::size_t epoch) {
-    constexpr double kLongest_s = 10.0;
-    constexpr double kWalking_mps = 0.3;
-    if (!flowAt(log, epoch).isZero(0.0)) return false;
-    const double time_s = log.time_s[epoch];
-    std::size_t before = epoch;
-    std::size_t after = epoch;
-    const auto goesOn = [&](std::size_t i) {
-        return !(flowAt(log, i).squaredNorm() > 0.0) && std::abs(log.time_s[i] - time_s) <= kLongest_s;
-    };
-    while (before > 0 && goesOn(before)) --before;
-    while (after + 1 < log.size() && goesOn(after)) ++after;
-    return flowAt(log, before).norm() > kWalking_mps && flowAt(log, after).norm() > kWalking_mps;
-}
-
-double medianOf(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-// Hampel's test over a second to either side.
-bool flowStandsOut(const ArrayLog& log, std::size_t epoch) {
-    constexpr double kHalfWindow_s = 1.0;
-    constexpr std::size_t kFewest = 6;
-    constexpr double kFarthest_sigma = 5.0;
-    constexpr double kNear_mps = 0.5;
-    constexpr double kSigmaOfMad = 1.4826;
-    std::size_t first = epoch;
-    std::size_t last = epoch;
-    while (first > 0 && log.time_s[epoch] - log.time_s[first - 1] <= kHalfWindow_s) --first;
-    while (last + 1 < log.size() && log.time_s[last + 1] - log.time_s[epoch] <= kHalfWindow_s) ++last;
-    std::vector<double> values;
-    values.reserve(last - first + 1);
-    for (const Channel channel : {Channel::FlowForward, Channel::FlowLeft}) {
-        values.clear();
-        for (std::size_t i = first; i <= last; ++i) {
-            const double value = log.value(channel, i);
-            if (present(value) && !flowAt(log, i).isZero(0.0)) values.push_back(value);
-        }
-        if (values.size() < kFewest) return false;
-        const double median = medianOf(values);
-        const double off = std::abs(log.value(channel, epoch) - median);
-        if (off <= kNear_mps) continue;
-        for (double& value : values) value = std::abs(value - median);
-        if (off > kFarthest_sigma * kSigmaOfMad * medianOf(values)) return true;
-    }
-    return false;
-}
-
-}  // namespace
-
-std::optional<std::string_view> flowRejection(const ArrayLog& log, std::size_t epoch,
-                                              const EpochAttitude& attitude, const FlowOptions& options) {
-    const bool forward = present(log.value(Channel::FlowForward, epoch));
-    const bool left = present(log.value(Channel::FlowLeft, epoch));
-    if (!forward && !left) return std::nullopt;
-    if (log.value(Channel::FlowQuality, epoch) < options.smallest_quality) return "no texture";
-    if (!forward || !left) return "one component missing";
-    if (!attitude.heading_known) return "no attitude";
-    if (!options.screen) return "";
-    if (silentFlow(log, epoch)) return "zero amid motion";
-    if (flowStandsOut(log, epoch)) return "far from its neighbours";
-    return "";
 }
 
 std::optional<std::string_view> dopplerRejection(const ArrayLog& log, std::size_t epoch) {

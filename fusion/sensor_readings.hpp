@@ -59,7 +59,8 @@ struct GnssQuality {
 /// 2 for RTK fixed, 1 for RTK float, 0 for all others and where the log does not say.
 [[nodiscard]] std::size_t gnssFixClass(const ArrayLog& log, std::size_t epoch);
 /// White noise of a position as a share of its sigma.
-[[nodiscard]] double gnssWhiteShare(const ArrayLog& log, std::size_t epoch, const LastingErrorOptions& lasting);
+[[nodiscard]] double gnssWhiteShare(const ArrayLog& log, std::size_t epoch,
+                                    const LastingErrorOptions& lasting);
 
 /// Origin of the array in local ENU as GNSS has it.
 struct GnssPosition {
@@ -75,11 +76,11 @@ struct GnssPosition {
                                                        const LocalFrame& frame, const EpochAttitude& attitude,
                                                        double assumed_up_m);
 
+/// Of each epoch of a log what keeps its optical flow from being used, see flowRejections().
+using FlowRejections = std::vector<std::optional<std::string_view>>;
+
 /// What keeps a reading from being used, by any method: nothing when the log has no reading in this epoch,
 /// empty when the reading may be used.
-[[nodiscard]] std::optional<std::string_view> flowRejection(const ArrayLog& log, std::size_t epoch,
-                                                            const EpochAttitude& attitude,
-                                                            const FlowOptions& options);
 [[nodiscard]] std::optional<std::string_view> dopplerRejection(const ArrayLog& log, std::size_t epoch);
 [[nodiscard]] std::optional<std::string_view> barometerRejection(const ArrayLog& log, std::size_t epoch);
 
@@ -192,6 +193,7 @@ struct ReadingContext {
     const LocalFrame& frame;
     const std::vector<EpochAttitude>& attitudes;
     const RunReference& reference;
+    const FlowRejections& flow_rejections;
 };
 
 /// Replaces `readings` by those of one epoch, ties excepted, given the predicted state (for the yaw row's

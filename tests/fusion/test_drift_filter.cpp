@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "fusion/drift_model.hpp"
+#include "fusion/flow_screen.hpp"
 #include "fusion/fuse_run.hpp"
 #include "tests/fusion/made_run.hpp"
 #include "tests/fusion/normal_numbers.hpp"
@@ -322,7 +323,8 @@ TEST(DriftModel, TheNoiseFactorFollowsTheInnovations) {
         FusionOptions reading = options;
         reading.accelerometer.use = false;
         const LocalFrame frame = made.survey.frame();
-        const ReadingContext context{made.run().log, reading, frame, attitudes, reference};
+        const FlowRejections flow = flowRejections(made.run().log, attitudes, reading.flow);
+        const ReadingContext context{made.run().log, reading, frame, attitudes, reference, flow};
         DriftModel model(context);
         RunFilter filter(context, made.run(), model);
         for (std::size_t i = 0; i < made.run().log.size(); ++i) ASSERT_FALSE(filter.step(i));
