@@ -16,14 +16,13 @@ std::vector<RowGroup> adjustmentGroups(bool robust) {
     set(kPrior, "prior", Loss::Square, 3.0, false);
     set(kTieH, "mark ties, plan", Loss::Square, 3.0, false);
     set(kTieV, "mark ties, height", Loss::Huber, 3.0, false);
-    static const std::array<std::string, 3> kFixes{"single", "RTK float", "RTK fixed"};
+    static const std::array<std::string, kFixClassCount> kFixes{"single", "RTK float", "RTK fixed"};
     // A fixed position does not drift by more than its sigma; what seems to is the sway of the walk.
-    constexpr std::size_t kRtkFixed = 2;
-    for (std::size_t f = 0; f < 3; ++f) {
+    for (std::size_t f = 0; f < kFixClassCount; ++f) {
         set(kGnssH + f, "GNSS noise, plan, " + kFixes[f], Loss::Cauchy, 3.0, true, 0.5);
         set(kGnssV + f, "GNSS noise, height, " + kFixes[f], Loss::Cauchy, 3.0, true);
         set(kGnssWalkH + f, "GNSS drift, plan, " + kFixes[f], Loss::Cauchy, 2.0, true, 0.3,
-            f == kRtkFixed ? 1.0 : 3.0);
+            f == kFixedClass ? 1.0 : 3.0);
         set(kGnssWalkV + f, "GNSS drift, height, " + kFixes[f], Loss::Cauchy, 2.0, true, 0.3, 3.0);
     }
     set(kGnssBias, "GNSS bias of a run", Loss::Square, 3.0, true, 0.2, 6.0);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "fusion/sensor_readings.hpp"
 #include "fusion/sparse_least_squares.hpp"
 
 namespace terrawalk {
@@ -12,11 +13,11 @@ enum AdjustmentGroup : std::size_t {
     kPrior,
     kTieH,
     kTieV,
-    kGnssH,  // of three kinds of fix each
-    kGnssV = kGnssH + 3,
-    kGnssWalkH = kGnssV + 3,
-    kGnssWalkV = kGnssWalkH + 3,
-    kGnssBias = kGnssWalkV + 3,
+    kGnssH,  // of each class of fix
+    kGnssV = kGnssH + kFixClassCount,
+    kGnssWalkH = kGnssV + kFixClassCount,
+    kGnssWalkV = kGnssWalkH + kFixClassCount,
+    kGnssBias = kGnssWalkV + kFixClassCount,
     kDoppler,
     kBarometer,
     kBarometerDrift,

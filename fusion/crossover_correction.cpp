@@ -95,7 +95,7 @@ class CrossoverCorrector {
         for (std::size_t k = 0; k < run.correction.knots(); ++k) {
             const std::size_t epoch = epochOfKnot(run, k);
             const auto& P = run.start->trajectory.epochs[epoch].covariance;
-            const bool fixed = !run.gnss.empty() && gnssFixClass(*run.log, epoch) == 2;
+            const bool fixed = !run.gnss.empty() && gnssFixClass(*run.log, epoch) == kFixedClass;
             const double shared = std::sqrt((fixed ? kMemoryFixed_s : kMemory_s) / kKnot_s);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const auto a = static_cast<Eigen::Index>(axis);

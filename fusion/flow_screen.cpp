@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "survey/upper_median.hpp"
+
 namespace terrawalk {
 
 namespace {
@@ -98,12 +100,6 @@ class SilentFlow {
     std::vector<bool> silent_;
 };
 
-double medianOf(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 bool flowStandsOut(const ArrayLog& log, std::size_t epoch) {
     constexpr std::size_t kFewest = 6;
     constexpr double kFarthest_sigma = 5.0;
@@ -119,11 +115,11 @@ bool flowStandsOut(const ArrayLog& log, std::size_t epoch) {
             if (present(value) && !readsNothing(log, i)) values.push_back(value);
         }
         if (values.size() < kFewest) return false;
-        const double median = medianOf(values);
+        const double median = upperMedian(values);
         const double off = std::abs(log.value(channel, epoch) - median);
         if (off <= kNear_mps) continue;
         for (double& value : values) value = std::abs(value - median);
-        if (off > kFarthest_sigma * kSigmaOfMad * medianOf(values)) return true;
+        if (off > kFarthest_sigma * kSigmaOfMad * upperMedian(values)) return true;
     }
     return false;
 }

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+
+#include "survey/upper_median.hpp"
 
 namespace terrawalk {
 namespace {
@@ -19,15 +22,8 @@ constexpr double kUsualSteps = 5.0;  // over the median of such differences, whe
 constexpr double kOpposite = 0.5;
 constexpr double kWayBack_s = 30.0;
 constexpr double kLongestDoubt_s = 60.0;
-constexpr std::size_t kRtkFixed = 2;
 constexpr double kUsualOff = 4.0;      // times the median distance from where others have the walker: a spike
 constexpr double kLeastSpike_m = 0.6;  // who turns on the spot is off by less from where others say he is
-
-double medianOf(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 bool follows(const GnssReading& before, const GnssReading& after) {
     return before.fix_class == after.fix_class && after.time_s - before.time_s <= kLongestStep_s;
@@ -46,7 +42,7 @@ std::optional<Eigen::Vector2d> usualVelocity(std::span<const GnssReading> readin
         north.push_back(velocity.y());
     }
     if (east.size() < kSide) return std::nullopt;
-    return Eigen::Vector2d(medianOf(east), medianOf(north));
+    return Eigen::Vector2d(upperMedian(east), upperMedian(north));
 }
 
 // By how much each step differs from how the walker goes; step i leads to reading i. Zero where none is
@@ -66,12 +62,12 @@ std::vector<Eigen::Vector2d> oddSteps(std::span<const GnssReading> readings) {
 
 // Of the readings whose kind of fix is the same.
 double usualOddStep(std::span<const GnssReading> readings, const std::vector<Eigen::Vector2d>& odd_m,
-                    std::size_t fix_class) {
+                    GnssFixClass fix_class) {
     std::vector<double> values;
     for (std::size_t i = 0; i < readings.size(); ++i) {
         if (readings[i].fix_class == fix_class && !odd_m[i].isZero(0.0)) values.push_back(odd_m[i].norm());
     }
-    return values.empty() ? 0.0 : medianOf(values);
+    return values.empty() ? 0.0 : upperMedian(values);
 }
 
 // How far a reading lies off from where those about it have the walker; zero without three on either side.
@@ -88,22 +84,21 @@ double offFromOthers(std::span<const GnssReading> readings, std::size_t i) {
         east.push_back(here.x());
         north.push_back(here.y());
     }
-    return (readings[i].en_m - Eigen::Vector2d(medianOf(east), medianOf(north))).norm();
+    return (readings[i].en_m - Eigen::Vector2d(upperMedian(east), upperMedian(north))).norm();
 }
 
 // Readings that stand alone. Their steps would hide the jumps, or look like some; robust rows deal with them.
 std::vector<bool> spikes(std::span<const GnssReading> readings) {
     std::vector<double> off_m(readings.size());
-    std::vector<std::vector<double>> of_class;
+    std::array<std::vector<double>, kFixClassCount> of_class;
     for (std::size_t i = 0; i < readings.size(); ++i) {
         off_m[i] = offFromOthers(readings, i);
-        of_class.resize(std::max(of_class.size(), readings[i].fix_class + 1));
         if (off_m[i] > 0.0) of_class[readings[i].fix_class].push_back(off_m[i]);
     }
-    std::vector<double> least_m;
-    for (std::vector<double>& values : of_class) {
-        least_m.push_back(values.empty() ? kLeastSpike_m
-                                         : std::max(kLeastSpike_m, kUsualOff * medianOf(values)));
+    std::array<double, kFixClassCount> least_m;
+    least_m.fill(kLeastSpike_m);
+    for (std::size_t c = 0; c < kFixClassCount; ++c) {
+        if (!of_class[c].empty()) least_m[c] = std::max(kLeastSpike_m, kUsualOff * upperMedian(of_class[c]));
     }
     std::vector<bool> spike(readings.size());
     for (std::size_t i = 0; i < readings.size(); ++i) {
@@ -115,15 +110,15 @@ std::vector<bool> spikes(std::span<const GnssReading> readings) {
 // How odd a step of each reading must be for a jump.
 std::vector<double> jumpSizes(std::span<const GnssReading> readings,
                               const std::vector<Eigen::Vector2d>& odd_m) {
-    std::vector<double> usual_m;
+    std::array<double, kFixClassCount> usual_m{};
+    for (const GnssFixClass fix_class : {kSingleClass, kFloatClass, kFixedClass}) {
+        usual_m[fix_class] = usualOddStep(readings, odd_m, fix_class);
+    }
     std::vector<double> least_m;
     for (std::size_t i = 0; i < readings.size(); ++i) {
-        const std::size_t fix_class = readings[i].fix_class;
-        while (usual_m.size() <= fix_class) {
-            usual_m.push_back(usualOddStep(readings, odd_m, usual_m.size()));
-        }
         const double noise_m = std::hypot(readings[i].white_m, i > 0 ? readings[i - 1].white_m : 0.0);
-        least_m.push_back(std::max({kGait_m, kNoiseSigmas * noise_m, kUsualSteps * usual_m[fix_class]}));
+        least_m.push_back(
+            std::max({kGait_m, kNoiseSigmas * noise_m, kUsualSteps * usual_m[readings[i].fix_class]}));
     }
     return least_m;
 }
@@ -205,7 +200,7 @@ void doubtStretches(std::span<const GnssReading> readings, std::span<const Eigen
     for (std::size_t i = from; i < end; ++i) {
         doubted_m[i] = (levels[level_of[i - from]].off_m - right->off_m).norm();
     }
-    if (readings[from].fix_class == kRtkFixed) return;
+    if (readings[from].fix_class == kFixedClass) return;
     for (std::size_t i = from; i < end;) {
         std::size_t after = i + 1;
         while (after < end && (doubted_m[after] > 0.0) == (doubted_m[i] > 0.0)) ++after;

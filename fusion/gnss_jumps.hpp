@@ -16,7 +16,7 @@ struct GnssReading {
     double time_s = 0.0;
     Eigen::Vector2d en_m = Eigen::Vector2d::Zero();  ///< local east and north
     double white_m = 0.0;                            ///< sigma of its white noise, per axis
-    std::size_t fix_class = 0;
+    GnssFixClass fix_class = kSingleClass;
 };
 
 /// Stretches whose positions stand off from those around them: a wrong fix, a reflected signal.

@@ -34,7 +34,7 @@ void SensorRows::addFlow(const RunModel& run) {
         run, [&](std::size_t i) { return run.flow_mps[i].allFinite(); },
         [&](std::size_t i, double from_s, double to_s) {
             const double dt = to_s - from_s;
-            const double yaw = trueYaw(run, array_iron_, i);
+            const double yaw = trueYaw(run, shared_.iron, i);
             const double c = std::cos(yaw);
             const double s = std::sin(yaw);
             const double f = run.flow_mps[i].x() / forward_scale;
@@ -82,8 +82,8 @@ void SensorRows::addFlow(const RunModel& run) {
                     if (!run.has_gyro) {
                         row_.add(run.iron.sin.unknown, -by_sin[a]);
                         row_.add(run.iron.cos.unknown, -by_cos[a]);
-                        row_.add(array_iron_.sin.unknown, -by_sin[a]);
-                        row_.add(array_iron_.cos.unknown, -by_cos[a]);
+                        row_.add(shared_.iron.sin.unknown, -by_sin[a]);
+                        row_.add(shared_.iron.cos.unknown, -by_cos[a]);
                     }
                     row_.add(run.scale.unknown, -by_scale[a]);
                     row_.add(run.axes.unknown, -by_axes[a]);
@@ -157,9 +157,9 @@ void SensorRows::addCompass(const RunModel& run) {
                 if (psi[j] != 0.0) row_.add(run.psi.unknown(psi_first + j), psi[j] / n);
             }
             row_.add(run.iron.sin.unknown, sine / n);
-            row_.add(array_iron_.sin.unknown, sine / n);
+            row_.add(shared_.iron.sin.unknown, sine / n);
             row_.add(run.iron.cos.unknown, cosine / n);
-            row_.add(array_iron_.cos.unknown, cosine / n);
+            row_.add(shared_.iron.cos.unknown, cosine / n);
             system_.addRow(kHeading, row_.all(), residual / n,
                            std::hypot(white / std::sqrt(n), kSteady_rad, lag_rad(first, last)));
             turn = psi = {};
@@ -180,9 +180,9 @@ void SensorRows::addCompass(const RunModel& run) {
         psi[1] += run.psi_at[i].fraction;
         sine += std::sin(yaw);
         cosine += std::cos(yaw);
-        residual += wrapAngle(yaw - trueYaw(run, array_iron_, i) - run.psi.value(run.psi_at[i]) -
-                              (array_iron_.sin.value + run.iron.sin.value) * std::sin(yaw) -
-                              (array_iron_.cos.value + run.iron.cos.value) * std::cos(yaw));
+        residual += wrapAngle(yaw - trueYaw(run, shared_.iron, i) - run.psi.value(run.psi_at[i]) -
+                              (shared_.iron.sin.value + run.iron.sin.value) * std::sin(yaw) -
+                              (shared_.iron.cos.value + run.iron.cos.value) * std::cos(yaw));
         n += 1.0;
     }
 }
@@ -199,8 +199,8 @@ void SensorRows::turnedBy(const RunModel& run, double time_s, double change) {
     const double yaw = run.yaw_rad[static_cast<std::size_t>(next - times.begin())];
     row_.add(run.iron.sin.unknown, -change * std::sin(yaw));
     row_.add(run.iron.cos.unknown, -change * std::cos(yaw));
-    row_.add(array_iron_.sin.unknown, -change * std::sin(yaw));
-    row_.add(array_iron_.cos.unknown, -change * std::cos(yaw));
+    row_.add(shared_.iron.sin.unknown, -change * std::sin(yaw));
+    row_.add(shared_.iron.cos.unknown, -change * std::cos(yaw));
 }
 
 }  // namespace terrawalk

@@ -45,8 +45,8 @@ std::vector<double> SensorRows::yawOfSteps(const RunModel& run) const {
         while (i + 2 < run.size() && run.time(i + 1) <= series.time(j)) ++i;
         const double f =
             std::clamp((series.time(j) - run.time(i)) / (run.time(i + 1) - run.time(i)), 0.0, 1.0);
-        const double here = trueYaw(run, array_iron_, i);
-        yaw[j] = here + f * wrapAngle(trueYaw(run, array_iron_, i + 1) - here);
+        const double here = trueYaw(run, shared_.iron, i);
+        yaw[j] = here + f * wrapAngle(trueYaw(run, shared_.iron, i + 1) - here);
     }
     return yaw;
 }

@@ -9,6 +9,14 @@
 
 namespace terrawalk {
 
+namespace {
+
+std::size_t ofClass(AdjustmentGroup first, GnssFixClass fix_class) {
+    return std::size_t{first} + fix_class;
+}
+
+}  // namespace
+
 // Weak where ties or GNSS tell more: it only keeps the system regular.
 void SensorRows::addStart(const RunModel& run) {
     const RunReference& reference = run.start->reference;
@@ -43,12 +51,12 @@ void SensorRows::addGnss(const RunModel& run) {
             position(run, gnss.epoch, axis, 1.0);
             segment.error.addTo(row_, place, 1.0, axis);
             double bias_m = 0.0;
-            if (axis < 2 && gnss.fix_class == 0) {
+            if (axis < 2 && gnss.fix_class == kSingleClass) {
                 row_.add(run.gnss_bias[axis].unknown, 1.0);
                 bias_m = run.gnss_bias[axis].value;
             }
             system_.addRow(
-                (axis == 2 ? kGnssV : kGnssH) + segment.fix_class, row_.all(),
+                ofClass(axis == 2 ? kGnssV : kGnssH, segment.fix_class), row_.all(),
                 gnss.enu_m[a] - run.track_m[gnss.epoch][a] - segment.error.value(place, axis) - bias_m,
                 axis == 2 ? gnss.white_up_m : gnss.white_m);
         }
@@ -58,7 +66,7 @@ void SensorRows::addGnss(const RunModel& run) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             addGaussMarkov(segment.error, axis, axis == 2 ? segment.sigma_up_m : segment.sigma_m,
                            options_.lasting.gnss_correlation_s,
-                           (axis == 2 ? kGnssWalkV : kGnssWalkH) + segment.fix_class);
+                           ofClass(axis == 2 ? kGnssWalkV : kGnssWalkH, segment.fix_class));
         }
     }
 }

@@ -6,6 +6,7 @@
 
 #include "fusion/flow_screen.hpp"
 #include "fusion/squared.hpp"
+#include "survey/upper_median.hpp"
 
 namespace terrawalk {
 
@@ -259,22 +260,22 @@ class Preparer {
                                         {}});
             }
             gnss.segment = *current;
-            run.has_single = run.has_single || gnss.fix_class == 0;
+            run.has_single = run.has_single || gnss.fix_class == kSingleClass;
             run.segments[*current].error.cover(run.time(gnss.epoch), options_.joint.gnss_knot_s);
         }
     }
 
     // What the white noise leaves of the sigma of a fix.
-    double lastingSigma(std::size_t fix_class, bool up) const {
-        const double white =
-            fix_class == 2 ? options_.lasting.gnss_white_share_fixed : options_.lasting.gnss_white_share;
+    double lastingSigma(GnssFixClass fix_class, bool up) const {
+        const double white = fix_class == kFixedClass ? options_.lasting.gnss_white_share_fixed
+                                                      : options_.lasting.gnss_white_share;
         return tableSigma(fix_class, up) * std::sqrt(std::max(0.1, 1.0 - squared(white)));
     }
 
-    double tableSigma(std::size_t fix_class, bool up) const {
+    double tableSigma(GnssFixClass fix_class, bool up) const {
         const GnssOptions& g = options_.gnss;
-        if (fix_class == 2) return up ? g.sigma_fixed_up_m : g.sigma_fixed_m;
-        if (fix_class == 1) return up ? g.sigma_float_up_m : g.sigma_float_m;
+        if (fix_class == kFixedClass) return up ? g.sigma_fixed_up_m : g.sigma_fixed_m;
+        if (fix_class == kFloatClass) return up ? g.sigma_float_up_m : g.sigma_float_m;
         return up ? g.sigma_single_up_m : g.sigma_single_m;
     }
 
@@ -297,9 +298,7 @@ class Preparer {
             for (std::size_t j = from; j < std::min(n, i + kSide + 1); ++j) {
                 if (present(above[j])) around.push_back(above[j]);
             }
-            std::nth_element(around.begin(), around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2),
-                             around.end());
-            if (std::abs(above[i] - around[around.size() / 2]) <= kTolerance_m) kept[i] = above[i];
+            if (std::abs(above[i] - upperMedian(around)) <= kTolerance_m) kept[i] = above[i];
         }
         return kept;
     }

@@ -16,7 +16,7 @@ namespace terrawalk {
 
 /// GNSS positions of one kind of fix, one after the other.
 struct GnssSegment {
-    std::size_t fix_class = 0;
+    GnssFixClass fix_class = kSingleClass;
     double sigma_m = 0.0;  // of the lasting error
     double sigma_up_m = 0.0;
     KnotChain error;  // e, n, u
@@ -24,7 +24,7 @@ struct GnssSegment {
 
 struct GnssEpoch {
     std::size_t epoch = 0;
-    std::size_t fix_class = 0;
+    GnssFixClass fix_class = kSingleClass;
     std::size_t segment = 0;
     Eigen::Vector3d enu_m;
     double white_m = 0.0;

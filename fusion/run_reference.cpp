@@ -8,6 +8,7 @@
 
 #include "fusion/barometer.hpp"
 #include "survey/mark_stands.hpp"
+#include "survey/upper_median.hpp"
 
 namespace terrawalk {
 
@@ -148,9 +149,7 @@ class ReferenceFinder {
         if (heights.empty()) return kMissing;
         // Of an even number the upper one: what stands in the way only shortens a range, and the mean of two
         // that differ would be near neither.
-        const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-        std::nth_element(heights.begin(), middle, heights.end());
-        return *middle;
+        return upperMedian(heights);
     }
 
     // Of a stand as a whole: the hand moves less than grass shortens single ranges.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "fusion/barometer.hpp"
+#include "survey/upper_median.hpp"
 
 namespace terrawalk {
 
@@ -272,15 +273,16 @@ std::vector<EpochAttitude> epochAttitudes(const ArrayLog& log, const AttitudeOpt
     return attitudes;
 }
 
-std::size_t gnssFixClass(const ArrayLog& log, std::size_t epoch) {
+GnssFixClass gnssFixClass(const ArrayLog& log, std::size_t epoch) {
     const double fix = log.value(Channel::Fix, epoch);
-    if (!present(fix)) return 0;
-    if (std::lround(fix) == fix_code::kRtkFixed) return 2;
-    return std::lround(fix) == fix_code::kRtkFloat ? 1 : 0;
+    if (!present(fix)) return kSingleClass;
+    if (std::lround(fix) == fix_code::kRtkFixed) return kFixedClass;
+    return std::lround(fix) == fix_code::kRtkFloat ? kFloatClass : kSingleClass;
 }
 
 double gnssWhiteShare(const ArrayLog& log, std::size_t epoch, const LastingErrorOptions& lasting) {
-    return gnssFixClass(log, epoch) == 2 ? lasting.gnss_white_share_fixed : lasting.gnss_white_share;
+    return gnssFixClass(log, epoch) == kFixedClass ? lasting.gnss_white_share_fixed
+                                                   : lasting.gnss_white_share;
 }
 
 GnssQuality gnssQuality(const ArrayLog& log, std::size_t epoch, const GnssOptions& options) {
@@ -379,9 +381,7 @@ double usualStep_s(const ArrayLog& log) {
     if (log.size() < 2) return 1.0;
     std::vector<double> steps_s;
     for (std::size_t i = 1; i < log.size(); ++i) steps_s.push_back(log.time_s[i] - log.time_s[i - 1]);
-    const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
-    std::nth_element(steps_s.begin(), middle, steps_s.end());
-    return *middle;
+    return upperMedian(steps_s);
 }
 
 double flowVariance(const FlowOptions& options, double speed_mps) {

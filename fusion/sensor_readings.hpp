@@ -56,8 +56,15 @@ struct GnssQuality {
     double correlation_s = 0.0;
 };
 [[nodiscard]] GnssQuality gnssQuality(const ArrayLog& log, std::size_t epoch, const GnssOptions& options);
-/// 2 for RTK fixed, 1 for RTK float, 0 for all others and where the log does not say.
-[[nodiscard]] std::size_t gnssFixClass(const ArrayLog& log, std::size_t epoch);
+
+/// Kinds of fix whose positions err in different ways; numbers from 0, to count with.
+enum GnssFixClass : std::size_t {
+    kSingleClass,  ///< all others too, and where the log does not say
+    kFloatClass,   ///< RTK float
+    kFixedClass,   ///< RTK fixed
+    kFixClassCount,
+};
+[[nodiscard]] GnssFixClass gnssFixClass(const ArrayLog& log, std::size_t epoch);
 /// White noise of a position as a share of its sigma.
 [[nodiscard]] double gnssWhiteShare(const ArrayLog& log, std::size_t epoch,
                                     const LastingErrorOptions& lasting);

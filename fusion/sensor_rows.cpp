@@ -6,7 +6,7 @@ namespace terrawalk {
 
 void SensorRows::addArray() {
     const double iron = radians(options_.lasting.hard_iron_sigma_deg);
-    for (const SingleUnknown* part : {&array_iron_.sin, &array_iron_.cos}) {
+    for (const SingleUnknown* part : {&shared_.iron.sin, &shared_.iron.cos}) {
         system_.addRow(kPrior, {{part->unknown, 1.0}}, -part->value, iron);
     }
     for (const SingleUnknown& bias : shared_.gnss_bias) {

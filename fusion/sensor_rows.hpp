@@ -17,7 +17,7 @@ class SensorRows {
     /// @param settled  whether the track is near its place
     SensorRows(const FusionOptions& options, const SharedErrors& shared, bool settled,
                SparseLeastSquares& system)
-        : options_(options), shared_(shared), array_iron_(shared.iron), settled_(settled), system_(system) {}
+        : options_(options), shared_(shared), settled_(settled), system_(system) {}
 
     void addArray();
     void addRun(RunModel& run);  ///< all of its sensors, and its ties
@@ -52,7 +52,6 @@ class SensorRows {
 
     const FusionOptions& options_;
     const SharedErrors& shared_;
-    const HardIron& array_iron_;
     bool settled_;
     SparseLeastSquares& system_;
     RowTerms row_;

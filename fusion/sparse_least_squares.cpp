@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "survey/upper_median.hpp"
+
 namespace terrawalk {
 
 namespace {
@@ -154,9 +156,7 @@ std::vector<GroupStatistics> SparseLeastSquares::statistics(const Eigen::VectorX
     for (std::size_t g = 0; g < groups_.size(); ++g) {
         std::vector<double>& all = deviations[g];
         if (all.empty()) continue;
-        const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-        std::nth_element(all.begin(), middle, all.end());
-        result[g].median_deviation = *middle / 0.6745;
+        result[g].median_deviation = upperMedian(all) / 0.6745;
     }
     return result;
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "survey/upper_median.hpp"
+
 namespace terrawalk {
 namespace {
 
@@ -146,13 +148,6 @@ struct Scratch {
     std::vector<double> values;
 };
 
-/// The upper median; reorders the values.
-double median(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 /// Slope of the ground along the track, the median over all pairs. Level where the neighbours lie too close
 /// together to say what the ground does at the point, or in one place because the array stands still.
 double slopeTowards(const TrackPoint& point, Scratch& scratch) {
@@ -171,7 +166,7 @@ double slopeTowards(const TrackPoint& point, Scratch& scratch) {
             }
         }
     }
-    return slopes.empty() ? 0.0 : median(slopes);
+    return slopes.empty() ? 0.0 : upperMedian(slopes);
 }
 
 /// How far a point stands above the line through its neighbours on one side, in robust spreads; nothing when
@@ -187,11 +182,11 @@ std::optional<double> spreadsAboveSide(const TrackPoint& point, Scratch& scratch
     for (const TrackPoint& neighbour : side) {
         values.push_back(neighbour.height_m - slope * (neighbour.path_m - point.path_m));
     }
-    const double line_m = median(values);
+    const double line_m = upperMedian(values);
     for (double& value : values) {
         value = std::abs(value - line_m);
     }
-    const double spread_m = std::max(kSigmaPerMad * median(values), floor_m);
+    const double spread_m = std::max(kSigmaPerMad * upperMedian(values), floor_m);
     return (point.height_m - line_m) / spread_m;
 }
 

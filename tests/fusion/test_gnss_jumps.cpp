@@ -20,7 +20,7 @@ std::vector<GnssReading> walk(double noise_m = 0.01) {
         const Eigen::Vector2d noise(random.normal(), random.normal());
         const Eigen::Vector2d at(10.0 * std::cos(0.08 * t), 10.0 * std::sin(0.08 * t));
         const Eigen::Vector2d gait(0.03 * std::sin(2.0 * kPi * t), 0.0);
-        readings.push_back({t, at + gait + noise_m * noise, noise_m, 2});
+        readings.push_back({t, at + gait + noise_m * noise, noise_m, kFixedClass});
     }
     return readings;
 }
@@ -100,7 +100,7 @@ std::vector<GnssReading> driftingWalk() {
         drift = 0.996 * drift + 0.1 * Eigen::Vector2d(random.normal(), random.normal());
         const Eigen::Vector2d noise(random.normal(), random.normal());
         const Eigen::Vector2d at(30.0 * std::cos(0.03 * t), 30.0 * std::sin(0.03 * t));
-        readings.push_back({t, at + drift + 0.3 * noise, 0.3, 0});
+        readings.push_back({t, at + drift + 0.3 * noise, 0.3, kSingleClass});
     }
     return readings;
 }
@@ -140,7 +140,7 @@ TEST(GnssJumps, NoiseThatIsUnderstatedMakesNone) {
 TEST(GnssJumps, OtherKindsOfFixAndGapsAreNotCompared) {
     std::vector<GnssReading> readings = walk();
     shift(readings, 60, 90, 1.0);
-    for (std::size_t i = 60; i < 90; ++i) readings[i].fix_class = 1;
+    for (std::size_t i = 60; i < 90; ++i) readings[i].fix_class = kFloatClass;
     expectDoubted(readings, 0, 0);
     readings = walk();
     for (std::size_t i = 100; i < readings.size(); ++i) readings[i].time_s += 5.0;
