@@ -114,6 +114,7 @@ class JointAdjuster {
     static constexpr double kPlanDoubt = 0.6;
     static constexpr double kHeightDoubt = 1.8;
     static constexpr double kGreatestHeightMargin = 2.8;
+    static constexpr double kGreatestMarginWithoutBarometer = 9.0;  // crossovers alone tell the height there
 
     std::array<SingleUnknown*, 4> sharedUnknowns() {
         return {&shared_.iron.sin, &shared_.iron.cos, &shared_.gnss_bias[0], &shared_.gnss_bias[1]};
@@ -231,7 +232,8 @@ class JointAdjuster {
                                                          0.5 * (here(0, 0) + here(1, 1)));
             const double height = height_inflation_ *
                                   std::min(margin(kHeightDoubt, run.height_variance_m2[at.knot], here(2, 2)),
-                                           kGreatestHeightMargin);
+                                           run.barometer_known[at.knot] ? kGreatestHeightMargin
+                                                                        : kGreatestMarginWithoutBarometer);
             const Eigen::Vector3d inflate(std::sqrt(plan), std::sqrt(plan), std::sqrt(height));
             p = inflate.asDiagonal() * p * inflate.asDiagonal();
             epoch.covariance.setZero();

@@ -42,6 +42,7 @@ class Preparer {
                 run.gust.cover(log.time_s[i], options_.joint.knot_s);
             }
         }
+        markBarometer(run);
         if (run.has_heading) prepareTurn(run);
         prepareAcceleration(run);
         run.above_ground_m = withoutSpikes(run);
@@ -50,6 +51,17 @@ class Preparer {
     }
 
   private:
+    void markBarometer(RunModel& run) const {
+        run.barometer_known.assign(run.correction.knots(), false);
+        if (!run.has_barometer) return;
+        for (std::size_t i = 0; i < run.size(); ++i) {
+            if (barometerRejection(*run.log, i) != "") continue;
+            const KnotChain::Place at = run.correction.locate(run.time(i));
+            run.barometer_known[at.knot] = true;
+            if (at.fraction > 0.0) run.barometer_known[at.knot + 1] = true;
+        }
+    }
+
     void prepareAcceleration(RunModel& run) const {
         const JointOptions& o = options_.joint;
         const bool fine = o.knot_s < kStrideAverage_s;  // the average would reach beyond the next knot

@@ -75,6 +75,7 @@ struct RunModel {
     std::vector<Eigen::Vector2d> flow_mps;
     std::vector<double> bridge_sigma_mps;  // zero where the flow was measured
     std::vector<bool> level_known;         // whether a range was measured about the knot
+    std::vector<bool> barometer_known;     // whether a pressure was measured about the knot of `correction`
     // Of each knot, as of the last solution without crossovers; of the plan per axis.
     std::vector<double> plan_variance_m2;
     std::vector<double> height_variance_m2;

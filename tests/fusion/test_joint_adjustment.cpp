@@ -274,14 +274,17 @@ TEST(JointAdjustment, ABiasOfAllPositionsIsFoundOut) {
 
 TEST(JointAdjustment, SigmasOfHeightsHoldOnSmallFields) {
     constexpr std::uint64_t kSeeds = 12;
-    for (const GnssMode gnss : {GnssMode::Single, GnssMode::Rtk}) {
+    for (const auto [gnss, barometer] :
+         {std::pair{GnssMode::Single, true}, {GnssMode::Rtk, true}, {GnssMode::Single, false}}) {
         double normalized = 0.0;
         double count = 0.0;
         for (std::uint64_t seed = 21; seed < 21 + kSeeds; ++seed) {
             SimulationOptions day = smallField(seed);
             day.gnss = gnss;
             const SimulatedSurvey simulated = simulatedSurvey(day);
-            const FusedSurvey result = fused(simulated.survey);
+            FusionOptions options;
+            options.barometer.use = barometer;
+            const FusedSurvey result = fused(simulated.survey, options);
             const auto& epochs = result.runs.back().trajectory.epochs;
             const auto& truth = simulated.truth.back().epochs;
             for (std::size_t i = 0; i < epochs.size(); ++i) {
@@ -290,8 +293,8 @@ TEST(JointAdjustment, SigmasOfHeightsHoldOnSmallFields) {
                 count += 1.0;
             }
         }
-        EXPECT_GT(normalized / count, 0.5) << name(gnss);
-        EXPECT_LT(normalized / count, 2.0) << name(gnss);
+        EXPECT_GT(normalized / count, 0.5) << name(gnss) << " barometer " << barometer;
+        EXPECT_LT(normalized / count, 2.0) << name(gnss) << " barometer " << barometer;
     }
 }
 
