@@ -15,13 +15,44 @@ namespace {
 constexpr const char* kHeaderCure =
     "name the columns x, y and z, each with _m or _ft where its unit is to be known";
 
+constexpr const char* kNumberCure = "write numbers with a dot as decimal sign and nothing between thousands";
+constexpr const char* kCommaCure =
+    "write numbers with a dot as decimal sign and nothing between thousands, or part the columns with "
+    "semicolons";
+
 bool isDegrees(std::string_view name) {
     const std::string_view start = name.substr(0, 3);
     return start == "lon" || start == "lat" || start == "Lon" || start == "Lat";
 }
 
+/// Maybe empty, and of nothing but what numbers are written with.
+bool isOfNumbers(std::string_view field) {
+    return field.find_first_not_of("+-0123456789.,' ") == std::string_view::npos;
+}
+
 bool isWhole(std::string_view field) {
     return std::all_of(field.begin(), field.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// "1,234", which is another number to a reader for whom the comma parts thousands.
+bool couldPartThousands(std::string_view number) {
+    const std::size_t first = number.find_first_of("0123456789"), comma = number.find(',');
+    return first < comma && comma - first <= 3 && number[first] != '0' && number.size() - comma == 4 &&
+           isWhole(number.substr(comma + 1));
+}
+
+/// Characters of CJK Unified Ideographs up to U+9FFF; in UTF-8 they begin with E4 to E9.
+bool isChinese(std::string_view name) {
+    return std::any_of(name.begin(), name.end(), [](char c) { return c >= '\xE4' && c <= '\xE9'; });
+}
+
+/// Whether east and north would fit the plane CRS of China the other way about: north from the equator is
+/// 2000 to 6000 km there, east has 6 digits, or 8 with the zone's number.
+bool liesInChinaTurned(const Eigen::Vector3d& point) {
+    const auto isNorth = [](double value) {
+        return value > 1.8e6 && value < 6.2e6;
+    };
+    return isNorth(point.x()) && !isNorth(point.y());
 }
 
 class PointTableParser {
@@ -48,6 +79,18 @@ class PointTableParser {
     }
 
     Result<ScatteredPoints> finish() {
+        if (comma_line_ > 0 && !comma_is_decimal_) {
+            line_ = comma_line_;
+            return bad("the commas in all numbers could be decimal signs or part thousands", kNumberCure);
+        }
+        if (comma_line_ > 0) points_.notes.emplace_back("numbers are read with the comma as decimal sign");
+        if (chinese_axes_) {
+            if (!points_.points.empty() && liesInChinaTurned(points_.points.front())) {
+                return badData("the header is Chinese, but by the numbers X is east and Y is north", file_, 0,
+                               "name the columns \u4e1c\u5750\u6807 and \u5317\u5750\u6807, or e and n");
+            }
+            points_.notes.emplace_back("the header is Chinese: X is taken for north and Y for east");
+        }
         leaveOutUnused(points_, left_out_);
         return std::move(points_);
     }
@@ -112,7 +155,7 @@ class PointTableParser {
         // A remark may hold separators; numbers beyond the header were numbers with commas.
         if (has_header_ && fields_.size() > columns_ && parseNumber(fields_[columns_])) {
             return bad(fmt::format("{} fields under a header of {}", fields_.size(), columns_),
-                       "write numbers with a dot as decimal sign and nothing between thousands");
+                       separator_ == ',' ? kCommaCure : kNumberCure);
         }
         if (fields_.size() < fields_wanted_) {
             return bad(fmt::format("{} fields, but column {} is needed", fields_.size(), fields_wanted_),
@@ -125,15 +168,16 @@ class PointTableParser {
         std::array<double, kRoles> numbers{};
         for (std::size_t k = 0; k < 4; ++k) {
             if (!place_[k]) continue;
-            const auto number = parseNumber(fields_[*place_[k]]);
+            const std::string_view field = fields_[*place_[k]];
+            const auto number = numberIn(field);
             if (!number) {
-                const std::string_view field = fields_[*place_[k]];
                 return bad(fmt::format("{} in column {} is no number", inQuotes(field), *place_[k] + 1),
-                           field.find(',') == std::string_view::npos
-                               ? ""
-                               : "write numbers with a dot as decimal sign and nothing between thousands");
+                           !field.empty() && isOfNumbers(field) ? kNumberCure : "");
             }
             numbers[k] = *number;
+        }
+        if (comma_line_ > 0 && dot_seen_) {
+            return bad("some numbers have a comma and some a dot as decimal sign", kNumberCure);
         }
         points_.points.emplace_back(numbers[0], numbers[1], numbers[2]);
         if (place_[3]) {
@@ -141,6 +185,27 @@ class PointTableParser {
             points_.sigmas.push_back(numbers[3]);
         }
         return {};
+    }
+
+    /// With a dot or, where commas do not part the columns, with a comma as decimal sign; finish() and
+    /// takeLine() hold all lines to one of them.
+    std::optional<double> numberIn(std::string_view field) {
+        const bool has_comma = separator_ != ',' && field.find(',') != std::string_view::npos;
+        const auto number = parseNumber(field, has_comma ? ',' : '.');
+        if (!number) return std::nullopt;
+        if (!has_comma) {
+            dot_seen_ = dot_seen_ || field.find('.') != std::string_view::npos;
+            return number;
+        }
+        comma_is_decimal_ = comma_is_decimal_ || !couldPartThousands(field);
+        if (comma_line_ == 0) {
+            comma_line_ = line_;
+            roles_.clear();  // plain lines have dots; those before this line are looked at by their values
+            dot_seen_ = dot_seen_ ||
+                        std::any_of(points_.points.begin(), points_.points.end(),
+                                    [](const Eigen::Vector3d& p) { return p != p.array().floor().matrix(); });
+        }
+        return number;
     }
 
     /// The first line that counts: names, or already a point.
@@ -152,7 +217,10 @@ class PointTableParser {
                                                                  : ' ';
         split(line);
         columns_ = fields_.size();
-        if (fields_.size() >= 3 && parseNumber(fields_[0]) && parseNumber(fields_[1])) {
+        const auto isNumber = [this](std::string_view field) {
+            return parseNumber(field) || (separator_ != ',' && parseNumber(field, ','));
+        };
+        if (fields_.size() >= 3 && isNumber(fields_[0]) && isNumber(fields_[1])) {
             if (fields_.size() > 3 && isWhole(fields_[0]) && fields_[0].size() <= 6 && !isWhole(fields_[1])) {
                 return bad(
                     fmt::format("{} looks like the number of a point, not like x", inQuotes(fields_[0])),
@@ -170,6 +238,12 @@ class PointTableParser {
             setRoles();
             return {};
         }
+        if (std::all_of(fields_.begin(), fields_.end(), isOfNumbers)) {
+            return bad("the first line names no columns, and does not begin with two numbers",
+                       "put a header above the table, e.g. number,n,e,z; write numbers with a dot as decimal "
+                       "sign");
+        }
+        if (!isUtf8(line)) return bad("the header is not UTF-8", "save the table as UTF-8");
         has_header_ = true;
         for (std::size_t i = 0; i < fields_.size(); ++i) {
             const auto named = namedColumn(fields_[i]);
@@ -193,8 +267,23 @@ class PointTableParser {
                 degrees ? "the points are in degrees" : "the header names no x, y and z",
                 degrees ? "project them to metres first, e.g. with QGIS or ogr2ogr -t_srs" : kHeaderCure);
         }
+        followChineseAxes();
         setRoles();
         return {};
+    }
+
+    /// Surveys in China count X to the north and Y to the east.
+    void followChineseAxes() {
+        const auto named = [this](std::size_t axis, char lower, char upper) {
+            const std::string_view name = fields_[*place_[axis]];
+            return name.find(lower) != std::string_view::npos || name.find(upper) != std::string_view::npos;
+        };
+        if (!std::any_of(fields_.begin(), fields_.end(), isChinese) || !named(0, 'x', 'X') ||
+            !named(1, 'y', 'Y')) {
+            return;
+        }
+        std::swap(place_[0], place_[1]);
+        chinese_axes_ = true;
     }
 
     void split(std::string_view line) {
@@ -225,6 +314,10 @@ class PointTableParser {
     std::size_t columns_ = 0;  ///< of the first line
     std::size_t line_ = 0;
     char separator_ = ',';
+    std::size_t comma_line_ = 0;     ///< of the first number with a comma, 0: none
+    bool comma_is_decimal_ = false;  ///< since one cannot part thousands
+    bool dot_seen_ = false;
+    bool chinese_axes_ = false;
     bool has_header_ = false;
 };
 

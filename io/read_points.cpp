@@ -14,15 +14,20 @@ std::optional<NamedColumn> namedColumn(std::string_view name) {
     std::transform(text.begin(), text.end(), text.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     std::optional<LengthUnit> unit;
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kEndings{{{"_m", "m"},
-                                                                                     {"[m]", "m"},
-                                                                                     {"(m)", "m"},
-                                                                                     {"_usft", "us-ft"},
-                                                                                     {"[us-ft]", "us-ft"},
-                                                                                     {"(us-ft)", "us-ft"},
-                                                                                     {"_ft", "ft"},
-                                                                                     {"[ft]", "ft"},
-                                                                                     {"(ft)", "ft"}}};
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kEndings{
+        {{"_m", "m"},
+         {"[m]", "m"},
+         {"(m)", "m"},
+         {"/m", "m"},
+         {"\uff08m\uff09", "m"},  // brackets as wide as a Chinese character; the metre in Chinese
+         {"(\u7c73)", "m"},
+         {"\uff08\u7c73\uff09", "m"},
+         {"_usft", "us-ft"},
+         {"[us-ft]", "us-ft"},
+         {"(us-ft)", "us-ft"},
+         {"_ft", "ft"},
+         {"[ft]", "ft"},
+         {"(ft)", "ft"}}};
     for (const auto& [ending, symbol] : kEndings) {
         if (text.size() > ending.size() && text.ends_with(ending)) {
             unit = lengthUnit(symbol);
@@ -31,7 +36,7 @@ std::optional<NamedColumn> namedColumn(std::string_view name) {
             break;
         }
     }
-    constexpr std::array<std::pair<std::string_view, PointColumn>, 19> kNames{
+    constexpr std::array<std::pair<std::string_view, PointColumn>, 29> kNames{
         {{"x", PointColumn::X},
          {"e", PointColumn::X},
          {"east", PointColumn::X},
@@ -49,7 +54,17 @@ std::optional<NamedColumn> namedColumn(std::string_view name) {
          {"sigma_v", PointColumn::Sigma},
          {"\u4e1c\u5750\u6807", PointColumn::X},  // east coordinate, north coordinate, height
          {"\u5317\u5750\u6807", PointColumn::Y},
+         {"x\u5750\u6807", PointColumn::X},  // x coordinate, y coordinate, also the other way about
+         {"y\u5750\u6807", PointColumn::Y},
+         {"\u5750\u6807x", PointColumn::X},
+         {"\u5750\u6807y", PointColumn::Y},
+         {"\u6a2a\u5750\u6807", PointColumn::X},  // across and along the meridian
+         {"\u7eb5\u5750\u6807", PointColumn::Y},
          {"\u9ad8\u7a0b", PointColumn::Z},
+         {"\u6807\u9ad8", PointColumn::Z},
+         {"\u6d77\u62d4", PointColumn::Z},
+         {"\u5927\u5730\u9ad8", PointColumn::Z},
+         {"\u6b63\u5e38\u9ad8", PointColumn::Z},
          {"used", PointColumn::Used}}};
     for (const auto& [known, column] : kNames) {
         if (text == known) return NamedColumn{column, unit};

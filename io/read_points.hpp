@@ -33,7 +33,8 @@ struct PointReadOptions {
 /// .csv .txt .xyz  a table with comma, semicolon, tab or blanks; a header names x or e or easting, y or n or
 ///                 northing, z or h or u or height or elevation (or the Chinese names), and maybe sigma_z or
 ///                 sigma_v, each with an ending _m, [m], (m) that tells the unit, and so with ft and usft;
-///                 without a header the first three columns
+///                 without a header the first three columns. In a Chinese header X is north and Y east. The
+///                 decimal sign is the dot, or the comma where it parts no columns and cannot part thousands
 /// .las            LAS 1.0 to 1.4, formats 0 to 10, not compressed; withheld points are left out
 /// .ply            text or binary, vertices with x, y, z
 /// others          points of a vector file that GDAL reads (GeoPackage, Shapefile, GeoJSON, ...), heights

@@ -186,11 +186,12 @@ std::string noteAt(std::size_t line, const std::string& message) {
     return note.text();
 }
 
-std::optional<double> parseNumber(std::string_view text) {
+std::optional<double> parseNumber(std::string_view text, char decimal_sign) {
     if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
     double value = 0.0;
     const char* const end = text.data() + text.size();
-    const auto parsed = fast_float::from_chars(text.data(), end, value);
+    const fast_float::parse_options options(fast_float::chars_format::general, decimal_sign);
+    const auto parsed = fast_float::from_chars_advanced(text.data(), end, value, options);
     if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value)) return std::nullopt;
     return value;
 }

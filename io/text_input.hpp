@@ -109,8 +109,8 @@ auto parseLines(LineBlocks::Source source, const std::filesystem::path& file, st
 /// "line 12: message" for the notes of a report; bytes that a terminal cannot show are written as escapes.
 [[nodiscard]] std::string noteAt(std::size_t line, const std::string& message);
 
-/// The whole text as a number: finite, decimal, dot. Never depends on the locale.
-[[nodiscard]] std::optional<double> parseNumber(std::string_view text);
+/// The whole text as a number: finite, decimal. Never depends on the locale.
+[[nodiscard]] std::optional<double> parseNumber(std::string_view text, char decimal_sign = '.');
 
 /// One field of a table with commas. Blanks round it do not count; a field in quotation marks may hold
 /// commas.

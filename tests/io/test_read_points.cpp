@@ -96,7 +96,11 @@ TEST(PointTable, TakesTablesAsOthersWriteThem) {
          {std::string("x [m];y [m];z [m]\r\n500000.5;2500000.25;12.5\r\n"),
           std::string("北坐标,东坐标,高程\n2500000.25,500000.5,12.5\n"),
           std::string("id\tE (m)\tN (m)\tHeight (m)\n7\t500000.5\t2500000.25\t12.5\n"),
-          std::string("x,y,z\n500000.5,2500000.25,12.5,\n")}) {
+          std::string("x,y,z\n500000.5,2500000.25,12.5,\n"),
+          std::string("点号,X,Y,H\n7,2500000.25,500000.5,12.5\n"),
+          std::string("点号\tX坐标(m)\tY坐标(m)\t高程（米）\n7\t2500000.25\t500000.5\t12.5\n"),
+          std::string("点号,X/m,Y/m,标高/m\n7,2500000.25,500000.5,12.5\n"),
+          std::string("x;y;z\n500000,5;2500000,25;12,5\n"), std::string("500000,5\t2500000,25\t12,5\n")}) {
         const auto points = readText(table);
         ASSERT_TRUE(points) << table << points.error().text();
         ASSERT_EQ(points->points.size(), 1U);
@@ -104,7 +108,7 @@ TEST(PointTable, TakesTablesAsOthersWriteThem) {
     }
     // Never a wrong height in silence.
     for (const std::string& table :
-         {std::string("x,y,z\n500000,5,2500000,25,12,5\n"), std::string("x;y;z\n500000,5;2500000,25;12,5\n"),
+         {std::string("x,y,z\n500000,5,2500000,25,12,5\n"), std::string("500000,5 2500000,25 12,5\n"),
           std::string("x,y,z\n500,000.5,2,500,000.25,12.5\n"),
           std::string("x,y,z,code\n500000,5,2500000,25,12,5,edge\n"),
           std::string("x,y,z,code\n1,2,3,edge\n500000,5,2500000,25,12,5,edge\n")}) {
@@ -115,6 +119,41 @@ TEST(PointTable, TakesTablesAsOthersWriteThem) {
     EXPECT_THAT(readText("1,2500000.25,500000.5,12.5,edge\n").error().text(), HasSubstr("number of a point"));
     EXPECT_THAT(readText("500000,5,2500000,25,12,5\n").error().text(), HasSubstr("comma as decimal sign"));
     EXPECT_TRUE(readText("1 2 3 255 255 255\n")) << "colours after whole numbers";
+}
+
+TEST(PointTable, TakesTheCommaForTheDecimalSignWhereNothingElseFits) {
+    // 12,500 alone could be twelve thousand; one number among them that could not decides for all.
+    const auto points = readText("x;y;z\n100;2,500;12,500\n101;3,500;0,125\n");
+    ASSERT_TRUE(points) << points.error().text();
+    EXPECT_EQ(points->points[0], Eigen::Vector3d(100.0, 2.5, 12.5));
+    EXPECT_EQ(points->points[1], Eigen::Vector3d(101.0, 3.5, 0.125));
+    EXPECT_THAT(points->notes, testing::ElementsAre(HasSubstr("comma as decimal sign")));
+
+    const auto refusal = [](const std::string& table) {
+        return readText(table).error().text();
+    };
+    EXPECT_THAT(refusal("x;y;z\n1;2;3\n1,234;5,678;12,500\n"), HasSubstr(":3: the commas in all numbers"));
+    EXPECT_THAT(refusal("x;y;z\n1,234;5,678;12.5\n"),
+                HasSubstr(":2: some numbers have a comma and some a dot"));
+    EXPECT_THAT(refusal("x;y;z\n1.5;2;3\n4;5;6,25\n"), HasSubstr(":3: some numbers have a comma"));
+    EXPECT_THAT(refusal("x;y;z\n4;5;6,25\n1.5;2;3\n"), HasSubstr(":3: some numbers have a comma"));
+    for (const std::string field : {"1.234,5", "1,234.5", "1 234,5", "1'234.5", "1,234,567"}) {
+        EXPECT_THAT(refusal("x;y;z\n1;2;" + field + "\n"),
+                    testing::AllOf(HasSubstr(":2: \"" + field + "\" in column 3 is no number"),
+                                   HasSubstr("nothing between thousands")));
+    }
+}
+
+TEST(PointTable, TakesXForNorthUnderAChineseHeaderAndSaysSo) {
+    const auto points = readText("点号,X,Y,H,备注\n1,30.5,20.25,3,a\n");
+    ASSERT_TRUE(points) << points.error().text();
+    EXPECT_EQ(points->points[0], Eigen::Vector3d(20.25, 30.5, 3.0));
+    EXPECT_THAT(points->notes, testing::ElementsAre(HasSubstr("X is taken for north")));
+    EXPECT_EQ(readText("id,X,Y,H\n1,30.5,20.25,3\n")->points[0], Eigen::Vector3d(30.5, 20.25, 3.0));
+    EXPECT_EQ(readText("点号,E,N,高程\n1,30.5,20.25,3\n")->points[0], Eigen::Vector3d(30.5, 20.25, 3.0));
+    // A table with the axes of mathematics, and one of another encoding.
+    EXPECT_THAT(readText("点号,X,Y,H\n1,500000.5,2500000.25,3\n").error().text(), HasSubstr("X is east"));
+    EXPECT_THAT(readText("\xB5\xE3\xBA\xC5,X,Y,H\n1,30.5,20.25,3\n").error().text(), HasSubstr("UTF-8"));
 }
 
 TEST(PointTable, NamesTheLineOfWhatIsWrong) {
