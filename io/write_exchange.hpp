@@ -26,12 +26,14 @@ struct ExchangeDescription {
     std::string crs_name;
     std::string title;
     std::string software;
+    std::string date;  ///< YYYY-MM-DD on which the survey began; empty where it is not known
 };
 
 /// Binary STL: float offsets from the whole-metre origin that the 80 bytes of the header state.
 [[nodiscard]] Result<void> writeStl(const TriangleMesh& mesh, const std::filesystem::path& file);
-/// LandXML 1.2, one surface of type TIN, metric, points as north east height, 0.1 mm. The date that the
-/// schema asks for is 1970-01-01, since no file of ours holds the time of day.
+/// LandXML 1.2, one surface of type TIN, metric, points as north east height, 0.1 mm. Where the
+/// survey has no date it is 1970-01-01, since the schema asks for one and no file of ours holds the time of
+/// day.
 [[nodiscard]] Result<void> writeLandXml(const TriangleMesh& mesh, const ExchangeDescription& description,
                                         const std::filesystem::path& file);
 /// DXF R12 (AC1009), one 3DFACE for each triangle on layer "surface", 0.1 mm.
@@ -53,7 +55,8 @@ struct MapPoints {
 
 /// LAS 1.4, point format 6, steps of 0.1 mm, the CRS as WKT. Used points are class 2 (ground), others class 1
 /// and withheld; the point source is the run, counted from 1. A log's time is not GPS time: the field is 0,
-/// and the extra bytes time_s (double) and sigma_z_m (float) hold what the log knows.
+/// and the extra bytes time_s (double) and sigma_z_m (float) hold what the log knows. The day of creation is
+/// that of the survey, 0 where it is not known.
 [[nodiscard]] Result<void> writeLas(const MapPoints& points, const ExchangeDescription& description,
                                     const std::filesystem::path& file, std::stop_token stop = {});
 /// Binary PLY, float x y z as offsets from the origin that its comment states, float sigma_z, uchar used.

@@ -77,7 +77,7 @@ Result<void> writeLandXml(const TriangleMesh& mesh, const ExchangeDescription& d
     if (!out) return tl::unexpected(out.error());
     auto done = out->write(fmt::format(
         R"(<?xml version="1.0" encoding="UTF-8"?>
-<LandXML xmlns="http://www.landxml.org/schema/LandXML-1.2" version="1.2" date="1970-01-01" time="00:00:00" readOnly="false">
+<LandXML xmlns="http://www.landxml.org/schema/LandXML-1.2" version="1.2" date="{}" time="00:00:00" readOnly="false">
 <Units><Metric areaUnit="squareMeter" linearUnit="meter" volumeUnit="cubicMeter" temperatureUnit="celsius" pressureUnit="HPA"/></Units>
 <CoordinateSystem name="{}" ogcWktCode="{}"/>
 <Application name="{}"/>
@@ -86,6 +86,7 @@ Result<void> writeLandXml(const TriangleMesh& mesh, const ExchangeDescription& d
 <Definition surfType="TIN">
 <Pnts>
 )",
+        description.date.empty() ? "1970-01-01" : escapedMarkup(description.date),
         escapedMarkup(description.crs_name), escapedMarkup(oneLine(description.crs_wkt2)),
         escapedMarkup(description.software), escapedMarkup(description.title)));
     std::string line;

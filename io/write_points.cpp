@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "io/gdal_support.hpp"
@@ -121,6 +123,24 @@ std::string lasWkt(const std::string& wkt2) {
     return wkt;
 }
 
+struct LasDay {
+    std::uint16_t of_year = 0;  ///< 1: the first of January
+    std::uint16_t year = 0;
+};
+
+/// Zeros where the date is not known or is none.
+LasDay lasDay(std::string_view date) {
+    int year = 0;
+    unsigned month = 0, day = 0;
+    if (std::sscanf(std::string(date).c_str(), "%4d-%2u-%2u", &year, &month, &day) != 3) return {};
+    const std::chrono::year_month_day when{std::chrono::year(year), std::chrono::month(month),
+                                           std::chrono::day(day)};
+    if (!when.ok() || year <= 0) return {};
+    const auto before = std::chrono::sys_days(when.year() / 1 / 1) - std::chrono::days(1);
+    return {static_cast<std::uint16_t>((std::chrono::sys_days(when) - before).count()),
+            static_cast<std::uint16_t>(year)};
+}
+
 Result<std::string> lasHeader(const MapPoints& points, const ExchangeDescription& description,
                               const Eigen::Vector3d& origin_m, const std::filesystem::path& file) {
     const GdalErrors errors;
@@ -149,8 +169,9 @@ Result<std::string> lasHeader(const MapPoints& points, const ExchangeDescription
     append(h, std::uint8_t{4});
     appendText(h, "EXTRACTION", 32);
     appendText(h, description.software, 32);
-    append(h, std::uint16_t{0});  // day and year of creation: no file of ours holds the time of day
-    append(h, std::uint16_t{0});
+    const LasDay created = lasDay(description.date);
+    append(h, created.of_year);
+    append(h, created.year);
     append(h, static_cast<std::uint16_t>(kLasHeaderBytes));
     append(h, static_cast<std::uint32_t>(kLasHeaderBytes + vlrs.size()));
     append(h, std::uint32_t{2});  // variable length records

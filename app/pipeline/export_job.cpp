@@ -100,7 +100,7 @@ Result<ExportOutcome> exportResults(const ExportRequest& request, Progress& prog
     fs::create_directories(folder, error);
     if (error) return systemError("cannot make the folder: " + error.message(), folder);
     const ExchangeDescription description{survey->projection.wkt2(), survey->projection.name(),
-                                          survey->survey, programVersion()};
+                                          survey->survey, programVersion(), survey->date};
     const auto fileFor = [&](std::string_view name, std::string_view extension) {
         outcome.files.push_back(folder / fmt::format("{}.{}", name, extension));
         progress.report(0.3, "writing " + outcome.files.back().filename().string());

@@ -26,7 +26,8 @@ Result<SurveyOutput> openSurveyOutput(const std::filesystem::path& folder) {
         auto projection = MapProjection::create(local, frame.at("crs").get<std::string>(),
                                                 frame.at("vertical_datum").get<std::string>());
         if (!projection) return tl::unexpected(projection.error());
-        return SurveyOutput{folder, manifest.value("survey", ""), local, std::move(*projection)};
+        return SurveyOutput{folder, manifest.value("survey", ""), local, std::move(*projection),
+                            manifest.value("survey_date", "")};
     } catch (const nlohmann::json::exception&) {
         return badData("the manifest does not tell the frame of the survey", file, 0,
                        "process the survey again with this version");

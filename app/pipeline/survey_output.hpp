@@ -14,6 +14,7 @@ struct SurveyOutput {
     std::string survey;  ///< its name
     LocalFrame frame{GeodeticPosition{}};
     MapProjection projection;
+    std::string date;  ///< YYYY-MM-DD; empty where no log tells when it began
 };
 
 /// Reads the folder's manifest. Errors: BadData for a folder without one, for one of another kind, and for

@@ -51,6 +51,17 @@ ordered_json frameJson(const Survey& survey) {
             {"vertical_datum", survey.vertical_datum}};
 }
 
+/// The day on which the first log that knows its time began, as YYYY-MM-DD; empty where none does.
+std::string dateOf(const Survey& survey) {
+    constexpr std::size_t kDateLength = 10;
+    std::string first;
+    for (const Run& run : survey.runs) {
+        const std::string date = run.log.start_utc.substr(0, kDateLength);
+        if (!date.empty() && (first.empty() || date < first)) first = date;
+    }
+    return first;
+}
+
 std::string manifestText(const Survey& survey, const Products& products, const SurveyReport& report,
                          const Provenance& provenance, const std::vector<std::string>& files) {
     ordered_json manifest{{"format", kOutputFormat},
@@ -63,6 +74,7 @@ std::string manifestText(const Survey& survey, const Products& products, const S
                           {"inputs", ordered_json::array()},
                           {"products", files},
                           {"configuration", ordered_json::parse(toJson(products.used))}};
+    if (const std::string date = dateOf(survey); !date.empty()) manifest["survey_date"] = date;
     for (const auto& [library, version] : libraryVersions()) manifest["libraries"][library] = version;
     for (const InputFile& input : report.inputs) {
         manifest["inputs"].push_back(

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,6 +46,26 @@ TEST(ExportCommand, WritesEveryFormatOfAProcessedSurvey) {
     ASSERT_EQ(unused.exit_code, 0);
     EXPECT_GT(json::parse(unused.out).at("points_not_used").get<int>(), 0);
     EXPECT_THAT(bytesOf(scratch / "more/ground_points.csv"), HasSubstr(",0,thinned\n"));
+}
+
+TEST(ExportCommand, WritesTheDayOfTheSurvey) {
+    const TemporaryFolder scratch;
+    fs::copy(quickPlot(), scratch / "field", fs::copy_options::recursive);
+    for (const auto& [log, start] : {std::pair{"F02", "2024-05-17T08:30:00Z"}, {"S01", "2024-05-18"}}) {
+        const fs::path file = scratch / "field/logs" / fmt::format("{}.csv", log);
+        const std::string text = bytesOf(file);
+        const std::size_t second = text.find('\n') + 1;
+        writeBytes(file,
+                   fmt::format("{}# start_utc: {}\n{}", text.substr(0, second), start, text.substr(second)));
+    }
+    const std::string out = (scratch / "out").string();
+    ASSERT_EQ(terrawalk({"process", (scratch / "field").string(), "-o", out, "--quiet"}).exit_code, 0);
+    EXPECT_EQ(json::parse(bytesOf(scratch / "out/manifest.json")).at("survey_date"), "2024-05-17");
+    ASSERT_EQ(terrawalk({"export", out, "--points", "las", "--mesh", "landxml"}).exit_code, 0);
+    EXPECT_THAT(bytesOf(scratch / "out-export/surface.xml"), HasSubstr("date=\"2024-05-17\""));
+    // Day 138 of the year 2024, little-endian, from byte 90 on.
+    EXPECT_EQ(bytesOf(scratch / "out-export/ground_points.las").substr(90, 4),
+              std::string("\x8a\0\xe8\x07", 4));
 }
 
 TEST(ExportCommand, SaysWhatIsWrong) {

@@ -42,7 +42,8 @@ ExchangeDescription description() {
     const auto projection =
         MapProjection::create(LocalFrame({23.182753, 113.399795, 38.0}), "EPSG:32649", "local");
     EXPECT_TRUE(projection);
-    return {projection->wkt2(), projection->name(), "North <terrace> & \"more\"", "Terrawalk test"};
+    return {projection->wkt2(), projection->name(), "North <terrace> & \"more\"", "Terrawalk test",
+            "2024-05-17"};
 }
 
 TEST(WriteStl, HoldsEveryTriangleWithItsNormal) {
@@ -109,6 +110,7 @@ TEST(WriteLandXml, AnXmlReaderFindsPointsAndFaces) {
     const CPLXMLNode* const root = CPLGetXMLNode(tree.get(), "=LandXML");
     ASSERT_NE(root, nullptr);
     EXPECT_STREQ(CPLGetXMLValue(root, "xmlns", ""), "http://www.landxml.org/schema/LandXML-1.2");
+    EXPECT_STREQ(CPLGetXMLValue(root, "date", ""), "2024-05-17");
     EXPECT_STREQ(CPLGetXMLValue(root, "Units.Metric.linearUnit", ""), "meter");
     EXPECT_EQ(CPLGetXMLValue(root, "Surfaces.Surface.name", ""), description().title);
     OGRSpatialReference crs;
@@ -176,6 +178,16 @@ TEST(ReadMeshPly, ReadsWhatWasWrittenAndRefusesDamage) {
     EXPECT_FALSE(readMeshPly(folder / "points.ply", silent, {}));
 }
 
+TEST(WriteLas, HasNoDayWhereTheSurveyHasNone) {
+    const TemporaryFolder folder;
+    for (const std::string date : {"", "2023-02-29"}) {
+        ExchangeDescription undated = description();
+        undated.date = date;
+        ASSERT_TRUE(writeLas(somePoints(), undated, folder / "p.las"));
+        EXPECT_EQ(numberAt<std::uint32_t>(bytesOf(folder / "p.las"), 90), 0U) << date;
+    }
+}
+
 // ASPRS LAS 1.4 R15: the offsets below are those of its tables, not those of the writer.
 TEST(WriteLas, FollowsTheSpecificationByteByByte) {
     const TemporaryFolder folder;
@@ -186,6 +198,8 @@ TEST(WriteLas, FollowsTheSpecificationByteByByte) {
     EXPECT_EQ(las[24], 1);
     EXPECT_EQ(las[25], 4);
     EXPECT_EQ(numberAt<std::uint16_t>(las, 6) & 16, 16) << "CRS is WKT";
+    EXPECT_EQ(numberAt<std::uint16_t>(las, 90), 138) << "day of a leap year";
+    EXPECT_EQ(numberAt<std::uint16_t>(las, 92), 2024);
     EXPECT_EQ(numberAt<std::uint16_t>(las, 94), 375);
     const auto data = numberAt<std::uint32_t>(las, 96);
     EXPECT_EQ(las[104], 6);
