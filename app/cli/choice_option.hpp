@@ -10,6 +10,17 @@
 
 namespace terrawalk {
 
+/// A number above zero.
+inline CLI::Validator aboveZero() {
+    return {[](const std::string& text) {
+                double value = 0.0;
+                return CLI::detail::lexical_cast(text, value) && value > 0.0
+                           ? std::string()
+                           : "must be above zero, not " + text;
+            },
+            "POSITIVE"};
+}
+
 /// An option that takes one of some names.
 template <class Enum, std::size_t n>
 CLI::Option* addChoice(CLI::App& command, const std::string& option, Enum& value,

@@ -51,7 +51,7 @@ void addSurfaceOptions(CLI::App& command, SurfaceRequest& r) {
         "Side of a cell, m, in which the point of median height stands for all [0, all points]");
     command
         .add_option("--resolution", r.resolution, "Side of a cell, in the points' unit [from their spacing]")
-        ->check(CLI::PositiveNumber);
+        ->check(aboveZero());
     command
         .add_option_function<std::vector<double>>(
             "--extent",

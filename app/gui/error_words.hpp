@@ -9,6 +9,14 @@
 namespace terrawalk::gui {
 
 inline constexpr const char* kErrorWords[] = {
+    QT_TRANSLATE_NOOP("Report", "breaklines"),
+    QT_TRANSLATE_NOOP(
+        "Report",
+        "GeoJSON that names no CRS counts as WGS 84: where its coordinates are those of a plane, name their "
+        "CRS, e.g. with `ogr2ogr -a_srs EPSG:32649 new.gpkg old.geojson`; project degrees with `-t_srs`"),
+    QT_TRANSLATE_NOOP("Report",
+                      "project them first, e.g. with `ogr2ogr -t_srs`; where only the CRS is named wrong, "
+                      "`-a_srs` names another"),
     QT_TRANSLATE_NOOP("Report", "no such file"),
     QT_TRANSLATE_NOOP("Report", "the file may not be read"),
     QT_TRANSLATE_NOOP("Report", "give this user the right to read it"),
@@ -429,6 +437,9 @@ inline constexpr const char* kErrorSentences[] = {
     QT_TRANSLATE_NOOP("Report", "the triangulation failed: %1"),
     QT_TRANSLATE_NOOP("Report", "method %1 cannot follow breaklines"),
     QT_TRANSLATE_NOOP("Report", "the breaklines are in %1, the points in %2"),
+    QT_TRANSLATE_NOOP("Report", "the %1 have x %2 to %3 and y %4 to %5, which could be degrees, but %6"),
+    QT_TRANSLATE_NOOP("Report", "the %1 have x %2 to %3 and y %4 to %5, which are no degrees, but %6"),
+    QT_TRANSLATE_NOOP("Report", "%1 is no plane CRS: a surface needs east and north in metres or feet"),
     QT_TRANSLATE_NOOP("Report", "heights from %1 to %2 make more than %3 levels"),
     QT_TRANSLATE_NOOP("Report", "%1 points are too few for cross-validation"),
     QT_TRANSLATE_NOOP("Report", "%1 ground points are more than a surface can hold"),

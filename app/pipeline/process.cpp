@@ -351,7 +351,7 @@ Result<void> checkBreaklines(const Survey& survey, const PipelineConfig& config,
     if (survey.breakline_crs.empty()) return {};
     const auto own = describeCrs(projection.wkt2());
     if (!own) return tl::unexpected(own.error());
-    return checkBreaklineCrs(survey.breakline_crs, own->name, survey.breakline_file);
+    return checkBreaklineCrs(survey.breaklines, survey.breakline_crs, own->name, survey.breakline_file);
 }
 
 struct GridUncertainty {

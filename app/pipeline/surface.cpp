@@ -103,13 +103,22 @@ Result<CoordinateSystem> coordinateSystemOf(const SurfaceRequest& request, const
         return localCoordinateSystem(unit.value_or(LengthUnit{"m", 1.0}));
     }
     auto crs = describeCrs(text);
+    if (!crs && request.crs.empty()) {
+        Eigen::AlignedBox2d extent;
+        for (const Eigen::Vector3d& point : points.points) extent.extend(point.head<2>());
+        return tl::unexpected(noPlaneCrs(crs.error(), "points", extent, request.points));
+    }
     if (!crs) return crs;
     if (unit && *unit != crs->unit) {
         return badData(
             fmt::format("the points are in {}, but {} is in {}", unit->symbol, crs->name, crs->unit.symbol),
             request.points, 0,
-            "name the CRS of these points, or their unit: _ft is the international foot, _usft that of US "
-            "surveys");
+            unit->symbol == "ft" && crs->unit.symbol == "US-ft"
+                ? "_ft is the international foot: where they are in feet of US surveys, call the columns "
+                  "x_usft, "
+                  "y_usft and z_usft"
+                : "name the CRS of these points, or their unit: _m is the metre, _ft the international foot, "
+                  "_usft that of US surveys");
     }
     if (!request.crs.empty() && !points.crs.empty()) {
         const auto own = describeCrs(points.crs);
@@ -124,7 +133,7 @@ Result<std::vector<Breakline>> breaklinesOf(const SurfaceRequest& request, const
                                             Progress& progress, const std::stop_token& stop) {
     auto file = readBreaklines(request.breaklines, progress, stop);
     if (!file) return tl::unexpected(file.error());
-    if (auto same = checkBreaklineCrs(file->crs, crs.name, request.breaklines); !same) {
+    if (auto same = checkBreaklineCrs(file->lines, file->crs, crs.name, request.breaklines); !same) {
         return tl::unexpected(same.error());
     }
     return std::move(file->lines);
@@ -387,7 +396,14 @@ Result<SurfaceOutcome> makeSurface(const SurfaceRequest& request, Progress& prog
     }
     PartialProgress triangulating(progress, 0.25, 0.35);
     auto ground = triangulateGround(input, model, triangulating, stop);
-    if (!ground) return tl::unexpected(ground.error());
+    if (!ground) {
+        Error error = ground.error();
+        if (error.kind == ErrorKind::BadData && error.file.empty() && request.breaklines.empty()) {
+            error.file = request.points;
+            if (input.points_m.size() < 3) error.cure = "see whether this is the right file";
+        }
+        return tl::unexpected(std::move(error));
+    }
     report.points_used = input.points_m.size();
     auto geometry = geometryOf(request, *ground);
     if (!geometry) return tl::unexpected(geometry.error());

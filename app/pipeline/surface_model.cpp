@@ -62,11 +62,36 @@ Result<void> checkMethod(const SurfaceModelOptions& options, bool breaklines_giv
                       "use linear or clough-tocher");
 }
 
-Result<void> checkBreaklineCrs(const std::string& lines_crs, const std::string& points_crs,
-                               const std::filesystem::path& file) {
+Error noPlaneCrs(const Error& of_crs, std::string_view what, const Eigen::AlignedBox2d& extent,
+                 const std::filesystem::path& file) {
+    const bool degrees =
+        Eigen::AlignedBox2d(Eigen::Vector2d(-360, -90), Eigen::Vector2d(360, 90)).contains(extent);
+    const bool json = file.extension() == ".geojson" || file.extension() == ".json";
+    Error error = of_crs;
+    error.file = file;
+    error.message = fmt::format("the {} have x {:.9g} to {:.9g} and y {:.9g} to {:.9g}, which {}, but {}",
+                                what, extent.min().x(), extent.max().x(), extent.min().y(), extent.max().y(),
+                                degrees ? "could be degrees" : "are no degrees", of_crs.message);
+    error.cure =
+        json ? "GeoJSON that names no CRS counts as WGS 84: where its coordinates are those of a plane, "
+               "name their CRS, e.g. with `ogr2ogr -a_srs EPSG:32649 new.gpkg old.geojson`; project "
+               "degrees with `-t_srs`"
+             : "project them first, e.g. with `ogr2ogr -t_srs`; where only the CRS is named wrong, "
+               "`-a_srs` names another";
+    return error;
+}
+
+Result<void> checkBreaklineCrs(const std::vector<Breakline>& lines, const std::string& lines_crs,
+                               const std::string& points_crs, const std::filesystem::path& file) {
     if (lines_crs.empty()) return {};
     const auto own = describeCrs(lines_crs);
-    if (!own) return tl::unexpected(own.error());
+    if (!own) {
+        Eigen::AlignedBox2d extent;
+        for (const Breakline& line : lines) {
+            for (const Eigen::Vector3d& vertex : line.vertices_m) extent.extend(vertex.head<2>());
+        }
+        return tl::unexpected(noPlaneCrs(own.error(), "breaklines", extent, file));
+    }
     if (own->name == points_crs) return {};
     return badData(fmt::format("the breaklines are in {}, the points in {}", own->name, points_crs), file, 0,
                    "bring both to one CRS");

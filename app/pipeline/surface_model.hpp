@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -40,8 +41,14 @@ struct SurfaceModelOptions {
 /// Error BadData for lines in another CRS than the points'.
 /// @param lines_crs  of their file; empty where it has none, which is taken for the points'
 /// @param points_crs  as CoordinateSystem::name
-[[nodiscard]] Result<void> checkBreaklineCrs(const std::string& lines_crs, const std::string& points_crs,
+[[nodiscard]] Result<void> checkBreaklineCrs(const std::vector<Breakline>& lines,
+                                             const std::string& lines_crs, const std::string& points_crs,
                                              const std::filesystem::path& file);
+
+/// What describeCrs() says of the CRS of a file, with the file, what its coordinates look like, and the cure.
+/// @param what  the file holds, e.g. "points"
+[[nodiscard]] Error noPlaneCrs(const Error& of_crs, std::string_view what, const Eigen::AlignedBox2d& extent,
+                               const std::filesystem::path& file);
 
 /// Points and lines that carry a surface.
 struct SurfaceInput {

@@ -3155,6 +3155,82 @@
             <source>column %1: %2: %3</source>
             <translation>列 %1：%2：%3</translation>
         </message>
+        <message>
+            <source>The check marks' own error is not known: the RMSE_V found leaves it out.</source>
+            <translation>检查点自身误差未知：所得 RMSE_V 未计入它。</translation>
+        </message>
+        <message>
+            <source>no run stood on a mark that it was not tied to, so nothing tells its error in plan</source>
+            <translation>没有测线停在未用于约束它的标志点上，平面误差无从得知</translation>
+        </message>
+        <message>
+            <source>the surface has no slope at the marks</source>
+            <translation>标志点处地表没有坡度</translation>
+        </message>
+        <message>
+            <source>the heights have no error</source>
+            <translation>高程没有误差</translation>
+        </message>
+        <message>
+            <source>This data set was tested to meet ASPRS Positional Accuracy Standards for Digital Geospatial Data, Edition 2, Version 2 (2024) for a %1 cm RMSE_V Vertical Accuracy Class. The Non-Vegetated Vertical Accuracy (NVA) was found to be RMSE_V = %2 cm.</source>
+            <translation>经检验，本数据集达到ASPRS《数字地理空间数据定位精度标准》第 2 版第 2 次修订（2024）的 %1 cm RMSE_V 高程精度等级。非植被区高程精度（NVA）为 RMSE_V = %2 cm。</translation>
+        </message>
+        <message>
+            <source>This data set was tested as required by ASPRS Positional Accuracy Standards for Digital Geospatial Data, Edition 2, Version 2 (2024) and does not meet the %1 cm RMSE_V Vertical Accuracy Class asked for. The Non-Vegetated Vertical Accuracy (NVA) was found to be RMSE_V = %2 cm.</source>
+            <translation>本数据集按ASPRS《数字地理空间数据定位精度标准》第 2 版第 2 次修订（2024）的要求检验，未达到所要求的 %1 cm RMSE_V 高程精度等级。非植被区高程精度（NVA）为 RMSE_V = %2 cm。</translation>
+        </message>
+        <message>
+            <source>This data set was not tested as required by ASPRS Positional Accuracy Standards for Digital Geospatial Data, Edition 2, Version 2 (2024): the check marks' own error of %1 cm is more than half of the %2 cm RMSE_V Vertical Accuracy Class asked for. The Non-Vegetated Vertical Accuracy (NVA) was found to be RMSE_V = %3 cm.</source>
+            <translation>本数据集未能按ASPRS《数字地理空间数据定位精度标准》第 2 版第 2 次修订（2024）的要求检验：检查点自身误差 %1 cm 大于所要求的 %2 cm RMSE_V 高程精度等级的一半。非植被区高程精度（NVA）为 RMSE_V = %3 cm。</translation>
+        </message>
+        <message>
+            <source>This data set was tested as required by ASPRS Positional Accuracy Standards for Digital Geospatial Data, Edition 2, Version 2 (2024). Although the Standards call for a minimum of thirty (30) checkpoints, this test was performed using ONLY %1 checkpoints. The Non-Vegetated Vertical Accuracy (NVA) was found to be RMSE_V = %2 cm using the reduced number of checkpoints, within the %3 cm RMSE_V Vertical Accuracy Class asked for.</source>
+            <translation>本数据集按ASPRS《数字地理空间数据定位精度标准》第 2 版第 2 次修订（2024）的要求检验。标准要求至少三十（30）个检查点，本次检验仅用了 %1 个。用减少的检查点得到的非植被区高程精度（NVA）为 RMSE_V = %2 cm，在所要求的 %3 cm RMSE_V 高程精度等级之内。</translation>
+        </message>
+        <message>
+            <source>This data set was tested as required by ASPRS Positional Accuracy Standards for Digital Geospatial Data, Edition 2, Version 2 (2024). Although the Standards call for a minimum of thirty (30) checkpoints, this test was performed using ONLY %1 checkpoints. The Non-Vegetated Vertical Accuracy (NVA) was found to be RMSE_V = %2 cm using the reduced number of checkpoints, beyond the %3 cm RMSE_V Vertical Accuracy Class asked for.</source>
+            <translation>本数据集按ASPRS《数字地理空间数据定位精度标准》第 2 版第 2 次修订（2024）的要求检验。标准要求至少三十（30）个检查点，本次检验仅用了 %1 个。用减少的检查点得到的非植被区高程精度（NVA）为 RMSE_V = %2 cm，超出所要求的 %3 cm RMSE_V 高程精度等级。</translation>
+        </message>
+        <message>
+            <source>The Vegetated Vertical Accuracy (VVA) was found to be RMSE_V = %1 cm at %2.</source>
+            <translation>植被区高程精度（VVA）在%2处为 RMSE_V = %1 cm。</translation>
+        </message>
+        <message>
+            <source>The mean error of %1 is more than a quarter of the RMSE_V asked for: the ASPRS standards want its cause found.</source>
+            <translation>平均误差 %1 超过所要求 RMSE_V 的四分之一：ASPRS 标准要求查明原因。</translation>
+        </message>
+        <message>
+            <source>%1 is off by %2, more than %3 times the RMSE_V asked for: a possible blunder. It is counted.</source>
+            <translation>%1 偏差 %2，超过所要求 RMSE_V 的 %3 倍：可能是粗差，仍计入统计。</translation>
+        </message>
+        <message>
+            <source>What errors in plan add to errors of height on slopes is not known: %1.</source>
+            <translation>平面误差在坡地上给高程误差带来多少尚不清楚：%1。</translation>
+        </message>
+        <message>
+            <source>breaklines</source>
+            <translation>断裂线</translation>
+        </message>
+        <message>
+            <source>the %1 have x %2 to %3 and y %4 to %5, which could be degrees, but %6</source>
+            <translation>%1的坐标 x 为 %2 至 %3，y 为 %4 至 %5，可能是度，但是%6</translation>
+        </message>
+        <message>
+            <source>the %1 have x %2 to %3 and y %4 to %5, which are no degrees, but %6</source>
+            <translation>%1的坐标 x 为 %2 至 %3，y 为 %4 至 %5，不是度，但是%6</translation>
+        </message>
+        <message>
+            <source>%1 is no plane CRS: a surface needs east and north in metres or feet</source>
+            <translation>%1 不是平面坐标系：地表需要以米或英尺计的东、北坐标</translation>
+        </message>
+        <message>
+            <source>GeoJSON that names no CRS counts as WGS 84: where its coordinates are those of a plane, name their CRS, e.g. with `ogr2ogr -a_srs EPSG:32649 new.gpkg old.geojson`; project degrees with `-t_srs`</source>
+            <translation>未注明坐标系的 GeoJSON 按 WGS 84 处理：若其坐标是平面坐标，请注明坐标系，例如用 `ogr2ogr -a_srs EPSG:32649 new.gpkg old.geojson`；若是度，用 `-t_srs` 投影</translation>
+        </message>
+        <message>
+            <source>project them first, e.g. with `ogr2ogr -t_srs`; where only the CRS is named wrong, `-a_srs` names another</source>
+            <translation>先投影，例如用 `ogr2ogr -t_srs`；若只是坐标系注错，用 `-a_srs` 另行注明</translation>
+        </message>
     </context>
     <context>
         <name>RunFigure</name>

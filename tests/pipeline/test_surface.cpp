@@ -150,6 +150,41 @@ TEST(Surface, FollowsBreaklinesOfAVectorFile) {
     EXPECT_THAT(surfaceOf(request).error().text(), HasSubstr("no line"));
 }
 
+TEST(Surface, SaysWhatCoordinatesLookLikeWhoseCrsIsNoPlane) {
+    const TemporaryFolder folder;
+    writePlane(folder / "plane.csv", "x_m,y_m,z_m");
+    SurfaceRequest request;
+    request.points = folder / "plane.csv";
+    request.output = folder / "dem.tif";
+    request.breaklines = folder / "lines.geojson";
+    request.crs = "EPSG:32649";
+    const auto refusalOf = [&](const std::string& coordinates) {
+        writeBytes(request.breaklines,
+                   R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},)"
+                   R"("geometry":{"type":"LineString","coordinates":)" +
+                       coordinates + "}}]}");
+        const auto outcome = surfaceOf(request);
+        return outcome ? std::string() : outcome.error().text();
+    };
+    EXPECT_THAT(
+        refusalOf("[[500010,2500015.5,16],[500030,2500016,18]]"),
+        testing::AllOf(HasSubstr("lines.geojson: the breaklines have x 500010 to 500030 and y 2500015.5 to "
+                                 "2500016, which are no degrees, but"),
+                       HasSubstr("names no CRS counts as WGS 84"), HasSubstr("-a_srs")));
+    EXPECT_THAT(refusalOf("[[113.1,23.1,16],[113.2,23.2,18]]"), HasSubstr("which could be degrees"));
+    request.points = request.breaklines;
+    request.breaklines.clear();
+    request.crs.clear();
+    writeBytes(request.points,
+               R"({"type":"MultiPoint","coordinates":[[500010,2500015,16],[500030,2500016,18]]})");
+    EXPECT_THAT(surfaceOf(request).error().text(), HasSubstr("lines.geojson: the points have x 500010"));
+    request.points = folder / "one.csv";
+    writeBytes(request.points, "x,y,z\n1,2,3\n");
+    EXPECT_THAT(
+        surfaceOf(request).error().text(),
+        testing::AllOf(HasSubstr("one.csv"), HasSubstr("right file"), Not(HasSubstr("walk several"))));
+}
+
 TEST(Surface, RefusesContradictingUnitsAndItsOwnInput) {
     const TemporaryFolder folder;
     writePlane(folder / "plane.csv", "x_ft,y_ft,z_ft");
@@ -161,6 +196,9 @@ TEST(Surface, RefusesContradictingUnitsAndItsOwnInput) {
     request.unit.clear();
     request.crs = "EPSG:32649";
     EXPECT_THAT(surfaceOf(request).error().text(), HasSubstr("EPSG:32649) is in m"));
+    request.crs = "EPSG:2229";  // in feet of US surveys
+    EXPECT_THAT(surfaceOf(request).error().text(),
+                testing::AllOf(HasSubstr("_ft is the international foot"), HasSubstr("x_usft")));
     request.crs = "EPSG:4326";
     EXPECT_THAT(surfaceOf(request).error().text(), HasSubstr("project"));
     request.crs.clear();
