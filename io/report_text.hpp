@@ -34,6 +34,9 @@ namespace terrawalk {
 ///         up_coverage     null or {n, within_1_96_sigma, mean_square}: of error over sigma
 ///     strata              [{name, up}]                       of the headline group
 ///     slope_leakage       null or {plan_rmse_m, rmse_m, share, n}
+///     slope_leakage_unknown  why it is null, part of a sentence; else null
+///     vertical_class      null without a class asked for; {class_m, check_marks, rmse_v_m, marks_own_error_m
+///                         (or null), met, vegetated: null or {check_marks, rmse_v_m}}
 ///     residuals           [{stage, quantity, mark, role, run, mark_enu_m, difference_enu_m, sigma_enu_m,
 ///                         used_by_estimator, slope, cover, possible_blunder}]  vectors are [e, n, u]
 ///     missing_residuals   [{stage, quantity, mark, role, run}]

@@ -97,6 +97,24 @@ Json leakageJson(const std::optional<SlopeLeakage>& leakage) {
             {"n", leakage->n}};
 }
 
+Json textJson(const std::string& text) {
+    return text.empty() ? Json(nullptr) : Json(text);
+}
+
+Json classTestJson(const std::optional<VerticalClassTest>& test) {
+    if (!test) return nullptr;
+    Json json{{"class_m", test->class_m},
+              {"check_marks", test->marks},
+              {"rmse_v_m", test->rmse_v_m},
+              {"marks_own_error_m", test->mark_sigma_m > 0.0 ? Json(test->mark_sigma_m) : Json(nullptr)},
+              {"met", test->met()},
+              {"vegetated", nullptr}};
+    if (test->vegetated_marks > 0) {
+        json["vegetated"] = {{"check_marks", test->vegetated_marks}, {"rmse_v_m", test->vegetated_rmse_v_m}};
+    }
+    return json;
+}
+
 Json residualJson(const Residual& r) {
     return {{"stage", name(r.stage)},
             {"quantity", name(r.quantity)},
@@ -325,6 +343,8 @@ std::string reportJson(const SurveyReport& report) {
                     {"accuracy", listOf(report.accuracy, groupJson)},
                     {"strata", listOf(report.strata, stratumJson)},
                     {"slope_leakage", leakageJson(report.slope_leakage)},
+                    {"slope_leakage_unknown", textJson(report.slope_leakage_unknown)},
+                    {"vertical_class", classTestJson(report.class_test)},
                     {"residuals", listOf(report.residuals, residualJson)},
                     {"missing_residuals", listOf(report.missing_residuals, missingJson)},
                     {"marks", listOf(report.marks, markJson)},

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -136,6 +137,10 @@ std::optional<ErrorStatistics> ofAxis(const std::vector<const Residual*>& residu
     return errorStatistics(differences, seed);
 }
 
+bool isOfSurface(const Residual& residual) {
+    return residual.stage == Stage::Surface && residual.quantity == Quantity::SurfaceHeight;
+}
+
 std::optional<SigmaCoverage> heightCoverage(const std::vector<const Residual*>& residuals) {
     SigmaCoverage coverage;
     for (const Residual* residual : residuals) {
@@ -246,9 +251,9 @@ std::vector<AccuracyStratum> accuracyStrata(const std::vector<Residual>& residua
     return strata;
 }
 
-std::optional<SlopeLeakage> slopeLeakage(const std::vector<Residual>& residuals,
-                                         const std::vector<AccuracyGroup>& groups,
-                                         const AccuracyGroup& group) {
+tl::expected<SlopeLeakage, std::string> slopeLeakage(const std::vector<Residual>& residuals,
+                                                     const std::vector<AccuracyGroup>& groups,
+                                                     const AccuracyGroup& group) {
     const AccuracyGroup* stands = nullptr;
     for (const AccuracyGroup& g : groups) {  // check marks come before control marks
         if (g.stage == Stage::Fused && g.quantity == Quantity::ArrayPosition && g.east && g.north) {
@@ -256,7 +261,10 @@ std::optional<SlopeLeakage> slopeLeakage(const std::vector<Residual>& residuals,
             break;
         }
     }
-    if (stands == nullptr) return std::nullopt;
+    if (stands == nullptr) {
+        return tl::unexpected<std::string>(
+            "no run stood on a mark that it was not tied to, so nothing tells its error in plan");
+    }
     SlopeLeakage leakage;
     leakage.plan_rmse_m = std::hypot(stands->east->rmse_m, stands->north->rmse_m) / std::sqrt(2.0);
     double leaked = 0.0, observed = 0.0;
@@ -266,13 +274,14 @@ std::optional<SlopeLeakage> slopeLeakage(const std::vector<Residual>& residuals,
         leaked += std::pow(leakage.plan_rmse_m * r.slope, 2.0);
         observed += r.difference_enu_m.z() * r.difference_enu_m.z();
     }
-    if (leakage.n == 0 || observed <= 0.0) return std::nullopt;
+    if (leakage.n == 0) return tl::unexpected<std::string>("the surface has no slope at the marks");
+    if (observed <= 0.0) return tl::unexpected<std::string>("the heights have no error");
     leakage.rmse_m = std::sqrt(leaked / static_cast<double>(leakage.n));
     leakage.share = leaked / observed;
     return leakage;
 }
 
-std::vector<Residual> withBlundersFlagged(std::vector<Residual> residuals) {
+std::vector<Residual> withBlundersFlagged(std::vector<Residual> residuals, double vertical_class_m) {
     constexpr std::size_t kLeastForBlunders = 5;
     struct Squares {
         double sum = 0.0;
@@ -291,6 +300,10 @@ std::vector<Residual> withBlundersFlagged(std::vector<Residual> residuals) {
     for (Residual& r : residuals) {
         r.possible_blunder = false;
         if (!counts(r)) continue;
+        if (vertical_class_m > 0.0 && isOfSurface(r)) {
+            r.possible_blunder = std::abs(r.difference_enu_m.z()) > kBlunderMultiple * vertical_class_m;
+            continue;
+        }
         const Squares& squares = groups.at({r.stage, r.quantity, r.role});
         if (squares.n < kLeastForBlunders) continue;
         const double square = r.difference_enu_m.z() * r.difference_enu_m.z();
@@ -298,6 +311,44 @@ std::vector<Residual> withBlundersFlagged(std::vector<Residual> residuals) {
         r.possible_blunder = square > kBlunderMultiple * kBlunderMultiple * others;
     }
     return residuals;
+}
+
+std::optional<VerticalClassTest> verticalClassTest(const std::vector<Residual>& residuals,
+                                                   const std::vector<ControlMark>& marks,
+                                                   const AccuracyGroup& group, double vertical_class_m) {
+    constexpr double kGreatestShareOfMarks = 0.5;  // sections 7.9 and 7.12
+    if (!(vertical_class_m > 0.0) || group.stage != Stage::Surface ||
+        group.quantity != Quantity::SurfaceHeight || group.role != MarkRole::Check) {
+        return std::nullopt;
+    }
+    std::map<std::string_view, double> sigmas_m;
+    for (const ControlMark& mark : marks) sigmas_m[mark.name] = mark.sigma_v_m;
+    struct Sum {
+        std::size_t n = 0;
+        double fit = 0.0, of_marks = 0.0;
+        [[nodiscard]] double root(double sum) const { return std::sqrt(sum / static_cast<double>(n)); }
+        [[nodiscard]] double rmse() const { return rmseWithMarkError_m(root(fit), root(of_marks)); }
+    } open, vegetated;
+    for (const Residual& r : residuals) {
+        if (!countsIn(r, group)) continue;
+        const auto sigma_m = sigmas_m.find(r.mark);
+        Sum& sum = r.cover == GroundCover::Vegetated ? vegetated : open;
+        ++sum.n;
+        sum.fit += std::pow(r.difference_enu_m.z(), 2.0);
+        sum.of_marks += sigma_m == sigmas_m.end() ? 0.0 : std::pow(sigma_m->second, 2.0);
+    }
+    if (open.n == 0) return std::nullopt;
+    VerticalClassTest test;
+    test.class_m = vertical_class_m;
+    test.marks = open.n;
+    test.rmse_v_m = open.rmse();
+    test.mark_sigma_m = open.root(open.of_marks);
+    test.vegetated_marks = vegetated.n;
+    if (vegetated.n > 0) test.vegetated_rmse_v_m = vegetated.rmse();
+    test.enough_marks = open.n >= kAsprsCheckMarks;
+    test.marks_sure = test.mark_sigma_m <= kGreatestShareOfMarks * vertical_class_m;
+    test.within = test.rmse_v_m <= vertical_class_m;
+    return test;
 }
 
 double rmseWithMarkError_m(double rmse_fit_m, double sigma_marks_m) {

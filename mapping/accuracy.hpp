@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <tl/expected.hpp>
 #include <vector>
 
 #include "survey/survey_report.hpp"
@@ -44,16 +45,27 @@ struct MarkDifference {
 [[nodiscard]] std::vector<AccuracyStratum> accuracyStrata(const std::vector<Residual>& residuals,
                                                           const AccuracyGroup& group, std::uint64_t seed);
 
-/// Nothing without slopes at the group's marks, or without stands on marks, check marks before control, that
-/// tell the error in plan. Pure.
-[[nodiscard]] std::optional<SlopeLeakage> slopeLeakage(const std::vector<Residual>& residuals,
-                                                       const std::vector<AccuracyGroup>& groups,
-                                                       const AccuracyGroup& group);
+/// Without slopes at the group's marks, or without stands on marks, check marks before control, that tell the
+/// error in plan, there is none: why, as part of a sentence. Pure.
+[[nodiscard]] tl::expected<SlopeLeakage, std::string> slopeLeakage(const std::vector<Residual>& residuals,
+                                                                   const std::vector<AccuracyGroup>& groups,
+                                                                   const AccuracyGroup& group);
 
-/// The residuals with those flagged whose height difference is more than kBlunderMultiple times the RMSE of
-/// the others of its group (stage, quantity, role). Groups of fewer than five flag none. Pure.
-[[nodiscard]] std::vector<Residual> withBlundersFlagged(std::vector<Residual> residuals);
-inline constexpr double kBlunderMultiple = 3.0;  ///< ASPRS Edition 2, section 7.2, has it of the target RMSE
+/// The residuals with those flagged whose height difference is more than kBlunderMultiple times
+/// `vertical_class_m`, for heights of the surface; without a class (0), and for what is no product, times the
+/// RMSE of the others of its group (stage, quantity, role), where groups of fewer than five flag none. Pure.
+/// Source: ASPRS Positional Accuracy Standards, Edition 2, section 7.2.
+[[nodiscard]] std::vector<Residual> withBlundersFlagged(std::vector<Residual> residuals,
+                                                        double vertical_class_m = 0.0);
+inline constexpr double kBlunderMultiple = 3.0;
+
+/// The heights of the surface at check marks against a class; nothing for another group, without a class (0),
+/// and where all marks stand among plants. Pure.
+[[nodiscard]] std::optional<VerticalClassTest> verticalClassTest(const std::vector<Residual>& residuals,
+                                                                 const std::vector<ControlMark>& marks,
+                                                                 const AccuracyGroup& group,
+                                                                 double vertical_class_m);
+inline constexpr std::size_t kAsprsCheckMarks = 30;  ///< that Edition 2 asks for at least
 
 /// Whether a residual counts in the heights of a group.
 [[nodiscard]] bool countsIn(const Residual& residual, const AccuracyGroup& group);

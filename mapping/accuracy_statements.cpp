@@ -15,7 +15,9 @@ namespace terrawalk {
 
 namespace {
 
-constexpr std::size_t kAsprsCheckMarks = 30;
+constexpr double kNotableShareOfClass = 0.25;  // section 7.2 of the ASPRS standards
+constexpr std::string_view kStandards =
+    "ASPRS Positional Accuracy Standards for Digital Geospatial Data, Edition 2, Version 2 (2024)";
 constexpr std::size_t kNamesInASentence = 12;
 constexpr double kNotableBiasShare = 0.5;  // of the RMSE
 constexpr std::size_t kMostNamed = 10;     // a list that nobody reads to its end helps nobody
@@ -207,6 +209,38 @@ std::string standardStatement(const ErrorStatistics& up) {
         counted(up.marks, "check mark"), kAsprsCheckMarks);
 }
 
+std::string centimetres(double value_m) {
+    return fmt::format("{:.2f} cm", 100.0 * value_m);
+}
+
+/// The sentences of the standards, as far as the program can vouch for them.
+std::string classStatement(const VerticalClassTest& test) {
+    const std::string asked =
+        fmt::format("{:g} cm RMSE_V Vertical Accuracy Class", std::round(1e5 * test.class_m) / 1e3);
+    const std::string found = fmt::format(
+        "The Non-Vegetated Vertical Accuracy (NVA) was found to be RMSE_V = {}", centimetres(test.rmse_v_m));
+    if (!test.enough_marks) {
+        return fmt::format(
+            "This data set was tested as required by {}. Although the Standards call for a minimum of thirty "
+            "(30) checkpoints, this test was performed using ONLY {} checkpoints. {} using the reduced "
+            "number "
+            "of checkpoints, {} the {} asked for.",
+            kStandards, test.marks, found, test.within ? "within" : "beyond", asked);
+    }
+    if (!test.marks_sure) {
+        return fmt::format(
+            "This data set was not tested as required by {}: the check marks' own error of {} is more than "
+            "half of the {} asked for. {}.",
+            kStandards, centimetres(test.mark_sigma_m), asked, found);
+    }
+    if (!test.within) {
+        return fmt::format(
+            "This data set was tested as required by {} and does not meet the {} asked for. {}.", kStandards,
+            asked, found);
+    }
+    return fmt::format("This data set was tested to meet {} for a {}. {}.", kStandards, asked, found);
+}
+
 std::string nssdaStatement(const AccuracyGroup& group) {
     const std::string found =
         fmt::format("{} vertical accuracy at 95 % confidence level", metres(*group.nssda_vertical_m));
@@ -263,14 +297,20 @@ std::vector<std::string> suspicions(const SurveyReport& report, const AccuracyGr
                         "start mark or a shifted datum.",
                         up.mean_m > 0.0 ? "too high" : "too low", signedMetres(up.mean_m)));
     }
+    if (report.class_test && std::abs(up.mean_m) > kNotableShareOfClass * report.class_test->class_m) {
+        out.push_back(
+            fmt::format("The mean error of {} is more than a quarter of the RMSE_V asked for: the ASPRS "
+                        "standards want its cause found.",
+                        signedMetres(up.mean_m)));
+    }
     std::size_t blunders = 0;
     for (const Residual& residual : report.residuals) {
         if (!countsIn(residual, group) || !residual.possible_blunder) continue;
         if (++blunders > kMostNamed) continue;
         out.push_back(
-            fmt::format("{} is off by {}, more than {:g} times the RMSE of the others: a possible blunder. "
-                        "It is counted.",
-                        residual.mark, signedMetres(residual.difference_enu_m.z()), kBlunderMultiple));
+            fmt::format("{} is off by {}, more than {:g} times the {}: a possible blunder. It is counted.",
+                        residual.mark, signedMetres(residual.difference_enu_m.z()), kBlunderMultiple,
+                        report.class_test ? "RMSE_V asked for" : "RMSE of the others"));
     }
     if (blunders > kMostNamed) {
         out.push_back(fmt::format("{} more marks are off as far; the table of differences names them.",
@@ -325,6 +365,11 @@ std::string controlSentence(const SurveyReport& report) {
                      marks);
 }
 
+bool hasSlopes(const SurveyReport& report, const AccuracyGroup& group) {
+    return std::any_of(report.residuals.begin(), report.residuals.end(),
+                       [&](const Residual& r) { return countsIn(r, group) && std::isfinite(r.slope); });
+}
+
 bool coverUnknown(const SurveyReport& report, const AccuracyGroup& group) {
     return std::none_of(report.residuals.begin(), report.residuals.end(), [&](const Residual& r) {
         return countsIn(r, group) && r.cover != GroundCover::Unknown;
@@ -358,8 +403,15 @@ std::vector<std::string> accuracyStatements(const SurveyReport& report) {
                     ? "No accuracy can be stated: the survey has no marks to compare with."
                     : "No accuracy can be stated: no check mark could be compared with the product."};
     }
-    std::vector<std::string> out{foundStatement(report, *group), standardStatement(*group->up),
-                                 nssdaStatement(*group)};
+    std::vector<std::string> out{foundStatement(report, *group), report.class_test
+                                                                     ? classStatement(*report.class_test)
+                                                                     : standardStatement(*group->up)};
+    if (report.class_test && report.class_test->vegetated_marks > 0) {
+        out.push_back(fmt::format("The Vegetated Vertical Accuracy (VVA) was found to be RMSE_V = {} at {}.",
+                                  centimetres(report.class_test->vegetated_rmse_v_m),
+                                  counted(report.class_test->vegetated_marks, "check mark")));
+    }
+    out.push_back(nssdaStatement(*group));
     if (const auto change = gain(report, *group)) out.push_back(gainStatement(report, *group, *change));
     if (const AccuracyGroup* fused =
             findGroup(report.accuracy, Stage::Fused, Quantity::ArrayPosition, MarkRole::Check);
@@ -402,6 +454,13 @@ std::vector<std::string> accuracyLimitations(const SurveyReport& report) {
             "looked "
             "through for what stands on the ground, or too few lie near the marks.");
     }
+    if (report.class_test && report.class_test->mark_sigma_m == 0.0) {
+        out.emplace_back("The check marks' own error is not known: the RMSE_V found leaves it out.");
+    }
+    if (group != nullptr && hasSlopes(report, *group) && !report.slope_leakage_unknown.empty()) {
+        out.push_back(fmt::format("What errors in plan add to errors of height on slopes is not known: {}.",
+                                  report.slope_leakage_unknown));
+    }
     for (std::string& sentence : missingSentences(report)) out.push_back(std::move(sentence));
     const auto tied = std::count_if(report.residuals.begin(), report.residuals.end(),
                                     [](const Residual& r) { return r.used_by_estimator; });
@@ -414,12 +473,18 @@ std::vector<std::string> accuracyLimitations(const SurveyReport& report) {
 }
 
 SurveyReport withAccuracy(SurveyReport report) {
-    report.residuals = withBlundersFlagged(std::move(report.residuals));
+    report.residuals = withBlundersFlagged(std::move(report.residuals), report.vertical_class_m);
     report.accuracy = accuracyGroups(report.residuals, report.seed);
     report.headline = headlineGroup(report.accuracy);
     if (const AccuracyGroup* const group = headlineOf(report)) {
         report.strata = accuracyStrata(report.residuals, *group, report.seed);
-        report.slope_leakage = slopeLeakage(report.residuals, report.accuracy, *group);
+        if (auto leakage = slopeLeakage(report.residuals, report.accuracy, *group)) {
+            report.slope_leakage = *leakage;
+        } else {
+            report.slope_leakage_unknown = std::move(leakage.error());
+        }
+        report.class_test =
+            verticalClassTest(report.residuals, report.marks, *group, report.vertical_class_m);
     }
     report.figures = keyFigures(report);
     report.statements = accuracyStatements(report);

@@ -111,6 +111,23 @@ struct AccuracyStratum {
     ErrorStatistics up;
 };
 
+/// A test against a vertical accuracy class of the ASPRS Positional Accuracy Standards, Edition 2. RMSE_V
+/// holds the marks' own error (section 7.11); marks among plants count apart, those of unknown cover as open
+/// ground.
+struct VerticalClassTest {
+    double class_m = 0.0;       ///< RMSE_V that was asked for
+    std::size_t marks = 0;      ///< check marks outside vegetation
+    double rmse_v_m = 0.0;      ///< found at these
+    double mark_sigma_m = 0.0;  ///< their own error, RMS; 0: not known
+    std::size_t vegetated_marks = 0;
+    double vegetated_rmse_v_m = 0.0;
+    bool enough_marks = false;  ///< 30 and more
+    bool marks_sure = false;    ///< their own error is not known, or no more than half of the class
+    bool within = false;        ///< whether the RMSE_V is no more than the class
+    /// Whether the data set may be said to be tested to meet the class.
+    [[nodiscard]] bool met() const { return enough_marks && marks_sure && within; }
+};
+
 /// Part of the height error that errors in plan make on slopes: sigma_V^2 observed is about
 /// sigma_V^2 + sigma_plan^2 slope^2.
 struct SlopeLeakage {
@@ -301,6 +318,7 @@ struct SurveyReport {
     std::optional<TuningRecord> tuning;
     std::optional<ReliefPicture> relief;  ///< of the surface, under the map; not part of report.json
     std::vector<ControlMark> marks;
+    double vertical_class_m = 0.0;  ///< RMSE_V that the surface is to be tested for; 0: none
     std::vector<Residual> residuals;
     std::vector<MissingResidual> missing_residuals;
     std::vector<AccuracyGroup> accuracy;
@@ -308,6 +326,8 @@ struct SurveyReport {
     std::vector<AccuracyStratum>
         strata;  ///< of the headline group; none where slopes and cover are not known
     std::optional<SlopeLeakage> slope_leakage;
+    std::string slope_leakage_unknown;  ///< why there is none, part of a sentence
+    std::optional<VerticalClassTest> class_test;
     std::vector<KeyFigure> figures;
     std::vector<std::string> statements;   ///< what the marks say, in plain sentences
     std::vector<std::string> limitations;  ///< what could not be checked, in plain sentences

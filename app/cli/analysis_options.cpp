@@ -1,5 +1,8 @@
 #include "app/cli/analysis_options.hpp"
 
+#include <map>
+#include <string>
+
 #include "app/cli/choice_option.hpp"
 #include "survey/frames.hpp"
 
@@ -133,6 +136,15 @@ void addValidateOptions(CLI::App& command, ValidateRequest& r) {
     addMarkSource(command, r.marks);
     addFile(command, "--uncertainty", r.uncertainty, "Raster of standard errors, to be tested too");
     command.add_option("-o,--output", r.output, "Table of the differences (.csv); JSON goes beside it");
+    const std::map<std::string, double> units{{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}};
+    command
+        .add_option("--vertical-class", r.vertical_class_m,
+                    "RMSE_V to test for, e.g. 5cm: says by the ASPRS standards whether it is met")
+        ->transform(CLI::AsNumberWithUnit(
+            units, CLI::AsNumberWithUnit::Options(CLI::AsNumberWithUnit::CASE_SENSITIVE |
+                                                  CLI::AsNumberWithUnit::UNIT_REQUIRED)))
+        ->check(CLI::Range(0.001, 10.0))
+        ->type_name("LENGTH");
     command.add_option("--seed", r.seed, "Of the bootstrap")->capture_default_str();
 }
 

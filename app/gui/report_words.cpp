@@ -110,6 +110,11 @@ constexpr const char* kWords[] = {
                       "The survey has no marks measured by total station. Nothing independent says how far "
                       "the terrain model is from the ground."),
     QT_TRANSLATE_NOOP("Report", "No check mark could be compared with the product."),
+    QT_TRANSLATE_NOOP("Report", "The check marks' own error is not known: the RMSE_V found leaves it out."),
+    QT_TRANSLATE_NOOP("Report",
+                      "no run stood on a mark that it was not tied to, so nothing tells its error in plan"),
+    QT_TRANSLATE_NOOP("Report", "the surface has no slope at the marks"),
+    QT_TRANSLATE_NOOP("Report", "the heights have no error"),
     QT_TRANSLATE_NOOP(
         "Report",
         "Whether the check marks stand among plants or in the open is not known: the points were not looked "
@@ -215,6 +220,43 @@ constexpr const char* kSentences[] = {
     QT_TRANSLATE_NOOP(
         "Report",
         "%1 is off by %2, more than %3 times the RMSE of the others: a possible blunder. It is counted."),
+    QT_TRANSLATE_NOOP("Report",
+                      "This data set was tested to meet ASPRS Positional Accuracy Standards for Digital "
+                      "Geospatial Data, Edition 2, Version 2 (2024) for a %1 cm RMSE_V Vertical Accuracy "
+                      "Class. The Non-Vegetated Vertical Accuracy (NVA) was found to be RMSE_V = %2 cm."),
+    QT_TRANSLATE_NOOP(
+        "Report",
+        "This data set was tested as required by ASPRS Positional Accuracy Standards for Digital Geospatial "
+        "Data, Edition 2, Version 2 (2024) and does not meet the %1 cm RMSE_V Vertical Accuracy Class asked "
+        "for. The Non-Vegetated Vertical Accuracy (NVA) was found to be RMSE_V = %2 cm."),
+    QT_TRANSLATE_NOOP("Report",
+                      "This data set was not tested as required by ASPRS Positional Accuracy Standards for "
+                      "Digital Geospatial Data, Edition 2, Version 2 (2024): the check marks' own error of "
+                      "%1 cm is more than half of the %2 cm RMSE_V Vertical Accuracy Class asked for. The "
+                      "Non-Vegetated Vertical Accuracy (NVA) was found to be RMSE_V = %3 cm."),
+    QT_TRANSLATE_NOOP(
+        "Report",
+        "This data set was tested as required by ASPRS Positional Accuracy Standards for Digital Geospatial "
+        "Data, Edition 2, Version 2 (2024). Although the Standards call for a minimum of thirty (30) "
+        "checkpoints, this test was performed using ONLY %1 checkpoints. The Non-Vegetated Vertical Accuracy "
+        "(NVA) was found to be RMSE_V = %2 cm using the reduced number of checkpoints, within the %3 cm "
+        "RMSE_V Vertical Accuracy Class asked for."),
+    QT_TRANSLATE_NOOP(
+        "Report",
+        "This data set was tested as required by ASPRS Positional Accuracy Standards for Digital Geospatial "
+        "Data, Edition 2, Version 2 (2024). Although the Standards call for a minimum of thirty (30) "
+        "checkpoints, this test was performed using ONLY %1 checkpoints. The Non-Vegetated Vertical Accuracy "
+        "(NVA) was found to be RMSE_V = %2 cm using the reduced number of checkpoints, beyond the %3 cm "
+        "RMSE_V Vertical Accuracy Class asked for."),
+    QT_TRANSLATE_NOOP("Report",
+                      "The Vegetated Vertical Accuracy (VVA) was found to be RMSE_V = %1 cm at %2."),
+    QT_TRANSLATE_NOOP("Report",
+                      "The mean error of %1 is more than a quarter of the RMSE_V asked for: the ASPRS "
+                      "standards want its cause found."),
+    QT_TRANSLATE_NOOP(
+        "Report",
+        "%1 is off by %2, more than %3 times the RMSE_V asked for: a possible blunder. It is counted."),
+    QT_TRANSLATE_NOOP("Report", "What errors in plan add to errors of height on slopes is not known: %1."),
     QT_TRANSLATE_NOOP("Report", "%1 lies outside the surface and could not be compared: %2."),
     QT_TRANSLATE_NOOP("Report", "%1 lie outside the surface and could not be compared: %2."),
     QT_TRANSLATE_NOOP("Report", "%1 has no ground point near enough and could not be compared: %2."),

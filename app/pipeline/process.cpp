@@ -639,6 +639,7 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     report.warnings = survey.notes;
     report.warnings.insert(report.warnings.end(), projection->warnings().begin(),
                            projection->warnings().end());
+    report.vertical_class_m = config.report.vertical_class_m;
     report = withAccuracy(std::move(report));
 
     products.surface = ground.mesh;

@@ -94,6 +94,7 @@ Result<ValidateOutcome> validateDem(const ValidateRequest& request, Progress& pr
     report.survey_name = request.dem.filename().string();
     report.program_version = programVersion();
     report.seed = request.seed;
+    report.vertical_class_m = request.vertical_class_m;
     report.marks = std::move(compared.marks);
     report.residuals = std::move(compared.found.residuals);
     report.missing_residuals = std::move(compared.found.missing);
@@ -154,6 +155,12 @@ std::string toJson(const ValidateOutcome& o) {
                                     {"statements", r.statements},
                                     {"limitations", r.limitations},
                                     {"differences", nlohmann::ordered_json::array()}};
+    if (r.class_test) {
+        document["vertical_class"] = {{"class_m", r.class_test->class_m},
+                                      {"check_marks", r.class_test->marks},
+                                      {"rmse_v_m", r.class_test->rmse_v_m},
+                                      {"met", r.class_test->met()}};
+    }
     for (const MissingResidual& missing : r.missing_residuals)
         document["marks_without_height"].push_back(missing.mark);
     for (const AccuracyGroup& group : r.accuracy) {

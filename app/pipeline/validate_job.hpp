@@ -17,8 +17,9 @@ struct ValidateRequest {
     std::filesystem::path dem;
     MarkSource marks;
     std::filesystem::path uncertainty;  ///< raster of one sigma, to be tested too; empty: none
-    std::filesystem::path output;  ///< table of the differences (.csv); empty: none. JSON goes beside it.
-    std::uint64_t seed = 1;        ///< of the bootstrap
+    std::filesystem::path output;   ///< table of the differences (.csv); empty: none. JSON goes beside it.
+    std::uint64_t seed = 1;         ///< of the bootstrap
+    double vertical_class_m = 0.0;  ///< RMSE_V that the DEM is to be tested for; 0: none
 };
 
 struct ValidateOutcome {

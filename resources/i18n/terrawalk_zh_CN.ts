@@ -4105,6 +4105,10 @@
             <source>lasting gnss bias run sigma</source>
             <translation>持续误差 单次 GNSS 偏差 σ</translation>
         </message>
+        <message>
+            <source>vertical class</source>
+            <translation>高程精度等级</translation>
+        </message>
     </context>
     <context>
         <name>SettingChoice</name>
@@ -5189,6 +5193,10 @@
         <message>
             <source>bias of GNSS positions without RTK, shared by all runs</source>
             <translation>无 RTK 时 GNSS 位置的偏差，所有测线共有</translation>
+        </message>
+        <message>
+            <source>RMSE_V that the surface is tested for by the ASPRS standards; 0: none</source>
+            <translation>按 ASPRS 标准检验地表所用的 RMSE_V；0：不检验</translation>
         </message>
     </context>
     <context>

@@ -250,6 +250,17 @@ TEST(ValidateCommand, ShowsTheSameNumbersInTextJsonAndTable) {
     // Errors of -0.03 to 0.05 against 1.96 hypot(0.02, 0.005): one in five is outside.
     EXPECT_EQ(json::parse(with_sigma.out).at("accuracy")[0].at("within_95").at("within"), 28);
     EXPECT_EQ(terrawalk({"validate", dem}).exit_code, 2);
+
+    // RMSE 3.0 cm with the points' own 0.5 cm.
+    const auto tested = [&](const std::string& asked) {
+        return terrawalk({"validate", dem, "--check-points", (scratch / "points.csv").string(),
+                          "--vertical-class", asked, "-o", (scratch / "t.csv").string()});
+    };
+    EXPECT_THAT(tested("5cm").out, HasSubstr("This data set was tested to meet ASPRS"));
+    EXPECT_EQ(json::parse(bytesOf(scratch / "t.json")).at("vertical_class").at("met"), true);
+    EXPECT_THAT(tested("0.025m").out, HasSubstr("does not meet the 2.5 cm RMSE_V"));
+    EXPECT_EQ(json::parse(bytesOf(scratch / "t.json")).at("vertical_class").at("met"), false);
+    for (const char* wrong : {"5", "0cm", "5 ft", "-5cm"}) EXPECT_EQ(tested(wrong).exit_code, 2) << wrong;
 }
 
 TEST(ValidateCommand, TakesMarksOfASurveyToItsMap) {

@@ -545,9 +545,11 @@ TEST(ReportJson, KeysStandInTheirOrderAndMissingIsNull) {
     for (const auto& [key, value] : json.items()) keys.push_back(key);
     EXPECT_THAT(keys, ElementsAre("format", "survey", "program_version", "method", "seed", "figures",
                                   "statements", "limitations", "warnings", "headline", "accuracy", "strata",
-                                  "slope_leakage", "residuals", "missing_residuals", "marks", "adjustment",
-                                  "surface", "occupancy", "runs", "tuning", "settings", "inputs"));
+                                  "slope_leakage", "slope_leakage_unknown", "vertical_class", "residuals",
+                                  "missing_residuals", "marks", "adjustment", "surface", "occupancy", "runs",
+                                  "tuning", "settings", "inputs"));
     EXPECT_TRUE(json["tuning"].is_null());
+    EXPECT_TRUE(json["vertical_class"].is_null());
     EXPECT_EQ(json["format"], "terrawalk-report 1");
     EXPECT_TRUE(json["residuals"][0]["difference_enu_m"][0].is_null());
     EXPECT_TRUE(json["residuals"][0]["sigma_enu_m"][2].is_null());

@@ -452,6 +452,93 @@ TEST(SlopeLeakage, IsPlanErrorTimesSlope) {
     EXPECT_FALSE(slopeLeakage(residuals, groups, surface));
 }
 
+TEST(SlopeLeakage, WhatIsMissingForItIsTold) {
+    SurveyReport report;
+    for (const char* mark : {"A", "B"}) {
+        report.marks.push_back({mark, {0, 0, 0}, 0.0, 0.0, MarkRole::Check});
+        report.residuals.push_back(heightResidual(mark, 0.1));
+        report.residuals.back().slope = 0.3;
+    }
+    const SurveyReport made = withAccuracy(report);
+    EXPECT_FALSE(made.slope_leakage);
+    EXPECT_THAT(made.slope_leakage_unknown, HasSubstr("no run stood on a mark"));
+    EXPECT_THAT(made.limitations, Contains(AllOf(HasSubstr("What errors in plan add to errors of height"),
+                                                 HasSubstr("no run stood on a mark"))));
+    for (Residual& r : report.residuals) r.slope = kMissing;
+    EXPECT_THAT(withAccuracy(report).limitations, Not(Contains(HasSubstr("errors in plan"))));
+}
+
+/// A surface that is off by 4 cm up and down at check marks known to a centimetre.
+SurveyReport testedReport(int check_marks, double class_m) {
+    SurveyReport report;
+    report.vertical_class_m = class_m;
+    for (int i = 0; i < check_marks; ++i) {
+        report.marks.push_back({fmt::format("K{}", i), {0, 0, 0}, 0.01, 0.01, MarkRole::Check});
+        report.residuals.push_back(heightResidual(report.marks.back().name, i % 2 == 0 ? 0.04 : -0.04));
+    }
+    return report;
+}
+
+TEST(VerticalClass, IsMetByThirtyCheckMarksWithTheirOwnError) {
+    const double found_m = std::hypot(0.04, 0.01);  // ASPRS Edition 2, section 7.11
+    for (const double class_m : {found_m - 1e-6, found_m + 1e-6}) {
+        const SurveyReport report = withAccuracy(testedReport(30, class_m));
+        ASSERT_TRUE(report.class_test);
+        EXPECT_NEAR(report.class_test->rmse_v_m, found_m, 1e-12);
+        EXPECT_EQ(report.class_test->met(), class_m > found_m);
+    }
+    EXPECT_THAT(
+        withAccuracy(testedReport(30, 0.05)).statements,
+        Contains(
+            "This data set was tested to meet ASPRS Positional Accuracy Standards for Digital "
+            "Geospatial Data, Edition 2, Version 2 (2024) for a 5 cm RMSE_V Vertical Accuracy Class. The "
+            "Non-Vegetated Vertical Accuracy (NVA) was found to be RMSE_V = 4.12 cm."));
+    const auto never = Not(Contains(HasSubstr("tested to meet")));
+    EXPECT_THAT(withAccuracy(testedReport(30, 0.025)).statements,
+                AllOf(never, Contains(HasSubstr("does not meet the 2.5 cm RMSE_V Vertical Accuracy Class"))));
+    EXPECT_THAT(withAccuracy(testedReport(30, 0.0)).statements,
+                AllOf(never, Contains(HasSubstr("No accuracy class is claimed"))));
+    const SurveyReport few = withAccuracy(testedReport(29, 0.05));
+    EXPECT_FALSE(few.class_test->met());
+    EXPECT_THAT(few.statements,
+                AllOf(never, Contains(AllOf(HasSubstr("using ONLY 29 checkpoints"),
+                                            HasSubstr("RMSE_V = 4.12 cm using the reduced number "
+                                                      "of checkpoints, within the 5 cm")))));
+}
+
+TEST(VerticalClass, IsNotTestedByMarksThatAreUnsureOrAmongPlants) {
+    const auto never = Not(Contains(HasSubstr("tested to meet")));
+    SurveyReport unsure = testedReport(30, 0.06);
+    for (ControlMark& mark : unsure.marks) mark.sigma_v_m = 0.031;
+    EXPECT_THAT(withAccuracy(unsure).statements,
+                AllOf(never, Contains(HasSubstr("own error of 3.10 cm is more than half of the 6 cm"))));
+    SurveyReport unknown = testedReport(30, 0.06);
+    for (ControlMark& mark : unknown.marks) mark.sigma_v_m = 0.0;
+    EXPECT_THAT(withAccuracy(unknown).limitations, Contains(HasSubstr("own error is not known")));
+    SurveyReport planted = testedReport(40, 0.05);
+    for (std::size_t i = 0; i < 11; ++i) {
+        planted.residuals[i].cover = GroundCover::Vegetated;
+        planted.residuals[i].difference_enu_m.z() = 0.5;
+    }
+    EXPECT_THAT(
+        withAccuracy(planted).statements,
+        AllOf(never, Contains(HasSubstr("ONLY 29 checkpoints")),
+              Contains("The Vegetated Vertical Accuracy (VVA) was found to be RMSE_V = 50.01 cm at 11 "
+                       "check marks.")));
+}
+
+TEST(VerticalClass, DecidesWhatIsABlunderAndABias) {
+    SurveyReport report = testedReport(30, 0.05);
+    report.residuals[3].difference_enu_m.z() = 0.151;
+    report.residuals[4].difference_enu_m.z() = 0.149;
+    const SurveyReport made = withAccuracy(report);
+    for (const Residual& r : made.residuals) EXPECT_EQ(r.possible_blunder, r.mark == "K3") << r.mark;
+    EXPECT_THAT(made.statements, Contains(HasSubstr("K3 is off by +0.151 m, more than 3 times the RMSE_V")));
+    for (Residual& r : report.residuals) r.difference_enu_m.z() += 0.013;
+    EXPECT_THAT(withAccuracy(report).statements, Contains(HasSubstr("more than a quarter of the RMSE_V")));
+    EXPECT_THAT(made.statements, Not(Contains(HasSubstr("more than a quarter"))));
+}
+
 TEST(Statements, TiedComparisonsAreNamedAsNotCounted) {
     SurveyReport report = exampleReport({});
     report.residuals.front().used_by_estimator = true;
