@@ -153,7 +153,8 @@ void addWalkAdviceOptions(CLI::App& command, WalkAdviceRequest& r) {
     command.add_option("-o,--output", r.output, "GeoPackage of polygons to write")->capture_default_str();
     command.add_option("--target", r.target_sigma,
                        "Standard error that the ground should be known to [twice the median]");
-    command.add_option("--least-area", r.least_area, "Smaller pieces are left out")->capture_default_str();
+    command.add_option("--least-area", r.least_area,
+                       "Smaller pieces are left out [25 m2, but no more than 1 % of the field]");
 }
 
 }  // namespace terrawalk

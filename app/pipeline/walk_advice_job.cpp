@@ -16,6 +16,8 @@ namespace terrawalk {
 namespace {
 
 constexpr double kDefaultMultiple = 2.0;  // of the median sigma
+constexpr double kLeastArea_m2 = 25.0;    // of a piece that is worth a walk in a large field
+constexpr double kLeastShare = 0.01;      // of the field
 constexpr double kBytesPerCell = 28.0;
 constexpr std::size_t kRegionsInText = 10;
 
@@ -23,7 +25,7 @@ constexpr std::size_t kRegionsInText = 10;
 
 Result<WalkAdviceOutcome> adviseWalk(const WalkAdviceRequest& request, Progress& progress,
                                      std::stop_token stop) {
-    if (!(request.target_sigma >= 0.0) || !(request.least_area >= 0.0)) {
+    if (!(request.target_sigma >= 0.0) || !(request.least_area.value_or(0.0) >= 0.0)) {
         return usageError("the target and the area may not be below zero");
     }
     progress.report(0.0, "reading");
@@ -47,12 +49,14 @@ Result<WalkAdviceOutcome> adviseWalk(const WalkAdviceRequest& request, Progress&
         request.target_sigma > 0.0 ? request.target_sigma : kDefaultMultiple * outcome.median_sigma;
     const double cell_area = g.cell_m * g.cell_m;
     outcome.area_known = cell_area * static_cast<double>(known.size());
+    outcome.least_area = request.least_area.value_or(
+        std::min(kLeastArea_m2 / std::pow(raster->crs.unit.metres, 2.0), kLeastShare * outcome.area_known));
     outcome.area_above =
         cell_area * static_cast<double>(std::count_if(known.begin(), known.end(), [&](double sigma) {
             return sigma > outcome.target_sigma;
         }));
     progress.report(0.5, "looking for weak ground");
-    const WeakRegions found = weakRegions(raster->grid, {outcome.target_sigma, request.least_area});
+    const WeakRegions found = weakRegions(raster->grid, {outcome.target_sigma, outcome.least_area});
     std::vector<MapRegion> regions;
     for (const WeakRegion& region : found.regions) {
         regions.push_back({region.label,
@@ -76,7 +80,8 @@ std::string toText(const WalkAdviceOutcome& o) {
         fmt::format("Target      sigma {:.4f} {}; the median is {:.4f}\nAbove it    {:.1f} of {:.1f} {}2\n",
                     o.target_sigma, o.unit, o.median_sigma, o.area_above, o.area_known, o.unit);
     if (o.regions.empty()) {
-        text += fmt::format("No piece of {:g} {}2 or more is known worse\n", o.request.least_area, o.unit);
+        text += fmt::format("No piece of {:.4g} {}2 or more is known worse{}\n", o.least_area, o.unit,
+                            o.area_above > 0.0 ? "; --least-area takes smaller ones" : "");
     } else {
         text += fmt::format("{:>4}{:>12}{:>12}{:>14}\n", "rank", "area", "mean sigma", "share of gain");
         double all = 0.0;
@@ -98,7 +103,7 @@ std::string toJson(const WalkAdviceOutcome& o) {
         {"format", "terrawalk-walk-again 1"},  {"uncertainty", o.request.uncertainty.string()},
         {"output", o.request.output.string()}, {"unit", o.unit},
         {"target_sigma", o.target_sigma},      {"median_sigma", o.median_sigma},
-        {"least_area", o.request.least_area},  {"area_above_target", o.area_above},
+        {"least_area", o.least_area},          {"area_above_target", o.area_above},
         {"area_known", o.area_known},          {"regions", nlohmann::ordered_json::array()}};
     for (const WeakRegion& region : o.regions) {
         document["regions"].push_back({{"rank", region.label},

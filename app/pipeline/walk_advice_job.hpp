@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -16,7 +17,8 @@ struct WalkAdviceRequest {
     std::filesystem::path uncertainty;  ///< raster of one sigma of the heights
     std::filesystem::path output = "walk_again.gpkg";
     double target_sigma = 0.0;  ///< that the ground should be known to; 0: twice the raster's median
-    double least_area = 25.0;   ///< smaller pieces are left out
+    std::optional<double>
+        least_area;  ///< smaller pieces are left out; by the size of the field where not given
 };
 
 struct WalkAdviceOutcome {
@@ -24,6 +26,7 @@ struct WalkAdviceOutcome {
     std::string unit;
     double target_sigma = 0.0;
     double median_sigma = 0.0;
+    double least_area = 0.0;  ///< 25 m2, and no more than a hundredth of what is known, unless it was given
     double area_above = 0.0;  ///< above the target, small pieces too
     double area_known = 0.0;
     std::vector<WeakRegion> regions;  ///< best first

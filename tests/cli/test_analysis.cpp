@@ -312,6 +312,20 @@ TEST(WalkAgainCommand, DrawsTheGroundThatIsKnownWorst) {
         EXPECT_NEAR(areas.back(), feature->GetFieldAsDouble("area"), 1e-6);
     }
     EXPECT_EQ(areas, (std::vector<double>{70.0, 100.0}));
+
+    // Small pieces count in a small field: here 12 of 1200 m2, and no more than 25 m2 in a large one.
+    const std::string spots = made(scratch / "spots.tif", [](double x, double y) {
+        if (x < 6 && y < 2) return 0.4;
+        return x > 30 && x < 33 && y > 20 && y < 23 ? 0.4 : 0.05;
+    });
+    const auto small = terrawalk({"walk-again", spots, "-o", (scratch / "s.gpkg").string(), "--json"});
+    ASSERT_EQ(small.exit_code, 0) << small.err;
+    EXPECT_NEAR(json::parse(small.out).at("least_area").get<double>(), 12.0, 1e-6);
+    ASSERT_EQ(json::parse(small.out).at("regions").size(), 1U);
+    EXPECT_NEAR(json::parse(small.out).at("regions")[0].at("area").get<double>(), 12.0, 1e-6);
+    EXPECT_THAT(
+        terrawalk({"walk-again", spots, "-o", (scratch / "s.gpkg").string(), "--least-area", "13"}).out,
+        HasSubstr("No piece of 13 m2 or more is known worse; --least-area takes smaller ones"));
     EXPECT_EQ(terrawalk({"walk-again", hill(scratch / "dem.tif"), "--target", "-1"}).exit_code, 2);
 }
 
