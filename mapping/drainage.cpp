@@ -52,14 +52,20 @@ class Flood {
         std::vector<std::size_t> upward;  ///< cells with a height, none before one that lies lower
     };
     Result<Filled> fill(Progress& progress, const std::stop_token& stop) {
-        Filled result{{heights_.heights_m.begin(), heights_.heights_m.end()}, {}};
+        Filled result;
         std::vector<double>& filled = result.heights;
+        filled.reserve(size());
+        for (std::size_t cell = 0; cell < size(); ++cell) {
+            if (cell % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
+            filled.push_back(heights_.heights_m[cell]);
+        }
         result.upward.reserve(size());
         std::vector<bool> seen(size(), false);
         using Entry = std::pair<double, std::size_t>;
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
         std::queue<std::size_t> pit;
         for (std::size_t cell = 0; cell < size(); ++cell) {
+            if (cell % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
             if (std::isnan(heights_.heights_m[cell]) || !isEdge(cell)) continue;
             open.emplace(filled[cell], cell);
             seen[cell] = true;
@@ -171,7 +177,12 @@ Result<ElevationGrid> accumulationOf(const Flood& flood, const Flood::Filled& fi
                                      const ElevationGrid& heights, FlowRouting routing, Progress& progress,
                                      const std::stop_token& stop) {
     const double cell_area = heights.geometry.cell_m * heights.geometry.cell_m;
-    std::vector<double> area(flood.size(), cell_area);
+    std::vector<double> area;
+    area.reserve(flood.size());
+    while (area.size() < flood.size()) {
+        if (stop.stop_requested()) return cancelled();
+        area.resize(std::min(flood.size(), area.size() + kCellsBetweenStops), cell_area);
+    }
     const std::vector<std::size_t>& upward = filled.upward;
     for (std::size_t i = upward.size(); i-- > 0;) {
         if (i % kCellsBetweenStops == 0) {
@@ -184,7 +195,10 @@ Result<ElevationGrid> accumulationOf(const Flood& flood, const Flood::Filled& fi
         }
     }
     ElevationGrid accumulation{heights.geometry, std::vector<float>(flood.size(), kNoHeight)};
-    for (const std::size_t cell : upward) accumulation.heights_m[cell] = static_cast<float>(area[cell]);
+    for (std::size_t i = 0; i < upward.size(); ++i) {
+        if (i % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
+        accumulation.heights_m[upward[i]] = static_cast<float>(area[upward[i]]);
+    }
     return accumulation;
 }
 
@@ -197,7 +211,9 @@ Result<Drainage> drainageOf(const ElevationGrid& heights, const std::vector<Flow
     const auto filled = flood.fill(filling, stop);
     if (!filled) return tl::unexpected(filled.error());
     Drainage drainage{{}, heights};
-    for (const std::size_t cell : filled->upward) {
+    for (std::size_t i = 0; i < filled->upward.size(); ++i) {
+        if (i % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
+        const std::size_t cell = filled->upward[i];
         drainage.wet_depth.heights_m[cell] =
             static_cast<float>(filled->heights[cell]) - heights.heights_m[cell];
     }

@@ -9,6 +9,7 @@ namespace terrawalk {
 namespace {
 
 constexpr double kBlocksPerRange = 8.0;
+constexpr std::size_t kCellsBetweenStops = std::size_t{1} << 20U;
 
 /// Sigmas of the cells of each block summed, for what lies above, below, and with its sign.
 struct BlockSums {
@@ -91,7 +92,9 @@ Result<VolumeResult> volumeOf(const ElevationGrid& difference, const VolumeError
     const double cell_area_m2 = difference.geometry.cell_m * difference.geometry.cell_m;
     VolumeResult result;
     std::size_t above = 0, below = 0;
-    for (const float height : difference.heights_m) {
+    for (std::size_t cell = 0; cell < difference.heights_m.size(); ++cell) {
+        if (cell % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
+        const float height = difference.heights_m[cell];
         if (std::isnan(height)) continue;
         ++result.cells;
         above += height > 0.0F ? 1 : 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/pipeline/memory_need.hpp"
@@ -14,16 +15,21 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kShareOfMemory = 0.9;
+constexpr std::size_t kCellsBetweenStops = std::size_t{1} << 20U;
 
 Result<void> addVariance(const SigmaSource& source, const DemFile& dem, const ElevationGrid& difference,
                          std::vector<float>& variances, const std::stop_token& stop) {
     if (source.raster.empty()) {
-        for (float& variance : variances) variance += static_cast<float>(source.value * source.value);
+        for (std::size_t cell = 0; cell < variances.size(); ++cell) {
+            if (cell % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
+            variances[cell] += static_cast<float>(source.value * source.value);
+        }
         return {};
     }
     const auto sigmas = readAlike(source.raster, dem, stop);
     if (!sigmas) return tl::unexpected(sigmas.error());
     for (std::size_t cell = 0; cell < variances.size(); ++cell) {
+        if (cell % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
         if (std::isnan(difference.heights_m[cell])) continue;
         const float own = sigmas->heights_m[cell];
         if (!(own >= 0.0F)) return badData("a cell with a height has no sigma", source.raster);
@@ -49,13 +55,18 @@ Result<ElevationGrid> readAlike(const fs::path& file, const DemFile& dem, const 
 
 Result<std::vector<float>> combinedSigmas(const std::vector<SigmaSource>& sources, const DemFile& dem,
                                           const ElevationGrid& difference, const std::stop_token& stop) {
-    std::vector<float> variances(difference.heights_m.size(), 0.0F);
+    const bool one_for_all = std::none_of(sources.begin(), sources.end(),
+                                          [](const SigmaSource& source) { return !source.raster.empty(); });
+    std::vector<float> variances(one_for_all ? 1 : difference.heights_m.size(), 0.0F);
     for (const SigmaSource& source : sources) {
         if (auto done = addVariance(source, dem, difference, variances, stop); !done) {
             return tl::unexpected(done.error());
         }
     }
-    for (float& value : variances) value = std::sqrt(value);
+    for (std::size_t cell = 0; cell < variances.size(); ++cell) {
+        if (cell % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
+        variances[cell] = std::sqrt(variances[cell]);
+    }
     return variances;
 }
 

@@ -10,6 +10,8 @@
 namespace terrawalk {
 namespace {
 
+constexpr std::size_t kCellsBetweenStops = std::size_t{1} << 20U;
+
 Result<void> checkRequest(const VolumeRequest& r) {
     if (r.plane.has_value() == !r.against.empty()) {
         return usageError("a volume lies between the DEM and a plane or another DEM",
@@ -36,13 +38,16 @@ Result<VolumeOutcome> measureVolume(const VolumeRequest& request, Progress& prog
     ElevationGrid difference = dem->grid;
     std::size_t cells_in_one = 0;
     if (request.plane) {
-        for (float& height : difference.heights_m) {
+        for (std::size_t cell = 0; cell < difference.heights_m.size(); ++cell) {
+            if (cell % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
+            float& height = difference.heights_m[cell];
             height = static_cast<float>(static_cast<double>(height) - *request.plane);
         }
     } else {
         const auto other = readAlike(request.against, *dem, stop);
         if (!other) return tl::unexpected(other.error());
         for (std::size_t cell = 0; cell < difference.heights_m.size(); ++cell) {
+            if (cell % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
             cells_in_one += std::isnan(difference.heights_m[cell]) != std::isnan(other->heights_m[cell]);
             difference.heights_m[cell] -= other->heights_m[cell];
         }
