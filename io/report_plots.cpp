@@ -21,7 +21,8 @@ namespace {
 using Pixel = std::pair<double, double>;
 
 constexpr double kWidth_px = 960.0;
-constexpr double kGlyph_px = 6.3;  // mean width of a character of the small type
+constexpr double kGlyph_px = 6.3;      // mean width of a character of the small type
+constexpr double kWideGlyph_px = 7.2;  // of capitals and digits in a wide typeface
 
 bool isShown(const Residual& residual, const AccuracyGroup& group) {
     return residual.stage == group.stage && residual.quantity == group.quantity &&
@@ -222,11 +223,12 @@ class LabelPlacer {
     void block(const Box& box) { taken_.push_back(box); }
     /// Lower left corner of the text.
     std::optional<Pixel> place(double x, double y, std::string_view words) {
-        const double w = kGlyph_px * static_cast<double>(characterCount(words)), h = 11.0;
-        const std::array<Pixel, 6> corners{Pixel{x + 7, y + 4}, {x - 7 - w, y + 4}, {x + 5, y + 15},
-                                           {x - w / 2, y + 17}, {x + 5, y - 6},     {x - 5 - w, y + 15}};
+        const double w = kWideGlyph_px * static_cast<double>(characterCount(words)), h = 11.0;
+        const std::array<Pixel, 6> corners{Pixel{x + 7, y + 4}, {x - 7 - w, y + 4}, {x + 6, y + 15},
+                                           {x - w / 2, y + 17}, {x + 6, y - 7},     {x - 6 - w, y + 15}};
         for (const auto& [left, bottom] : corners) {
-            const Box box{left, bottom - h, left + w, bottom + 1};
+            // With the halo of the letters.
+            const Box box{left - 1, bottom - h, left + w + 1, bottom + 2};
             const bool free = std::none_of(taken_.begin(), taken_.end(),
                                            [&](const Box& other) { return box.overlaps(other); });
             if (!free || !frame_.contains(box)) continue;
@@ -254,7 +256,7 @@ std::size_t drawMarks(Svg& svg, const SurveyReport& report, const MapFrame& map,
             const double height = std::abs(scale.length(error->second));
             tooltip += ": " + signedMetres(error->second);
             svg.rectangle(x - 2.5, top, 5, height, error->second > 0.0 ? "high" : "low", tooltip);
-            placer.block({x - 3, top, x + 3, top + height});
+            placer.block({x - 5, top - 1, x + 5, top + height + 1});
         }
         markSymbol(svg, mark.role, x, y, tooltip);
     }

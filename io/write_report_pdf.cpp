@@ -158,6 +158,7 @@ class Paper {
     [[nodiscard]] double left() const { return left_; }
     [[nodiscard]] double width() const { return width_; }
     [[nodiscard]] double y() const { return y_; }
+    [[nodiscard]] double room() const { return kBottom - y_; }  ///< to the bottom of the page
     void moveTo(double y) { y_ = y; }
     void space(double points) { y_ = std::min(y_ + points, kBottom); }
 
@@ -455,7 +456,7 @@ class TablePrinter {
             if (first || new_page) {
                 for (const TableRow* head : heads) printRow(*head);
             }
-            if (row.begins_group && !first) paper_.rule(paper_.left(), paper_.y(), paper_.width(), kQuiet);
+            if (row.begins_group && !first) paper_.rule(paper_.left(), paper_.y(), width(), kQuiet);
             printRow(row);
             first = false;
         }
@@ -463,6 +464,11 @@ class TablePrinter {
     }
 
   private:
+    [[nodiscard]] double width() const {
+        double sum = -kCellGap;
+        for (const double column : widths_) sum += column + kCellGap;
+        return sum;
+    }
     [[nodiscard]] bool breaks(bool numbers_only) {
         for (const TableRow& row : rows_) {
             for (std::size_t i = 0; i < row.cells.size(); ++i) {
@@ -557,14 +563,29 @@ void printCards(Paper& paper, const CPLXMLNode* figures) {
     paper.space(height + 12.0);
 }
 
+constexpr double kSwatch = 20.0, kKeyGap = 10.0, kBelowKey = 14.0;
+constexpr TextLook kKeyLook{7.5, false, kInk};
+
+double keyHeight(Paper& paper, const CPLXMLNode* list) {
+    double x = 0.0, height = kBelowKey;
+    for (const CPLXMLNode* const item : elementsOf(list)) {
+        const Layout name = paper.layout(textOf(item), kKeyLook, 0.0);
+        const double width = kSwatch + 4.0 + Paper::widthOf(name);
+        if (x > 0.0 && x + width > paper.width()) {
+            x = 0.0;
+            height += Paper::heightOf(name) + 1.0;
+        }
+        x += width + kKeyGap;
+    }
+    return height;
+}
+
 /// Swatches with the names of the runs, one after the other.
 void printKey(Paper& paper, const CPLXMLNode* list) {
-    constexpr double kSwatch = 20.0, kGap = 10.0;
-    const TextLook look{7.5, false, kInk};
     double x = paper.left();
     for (const CPLXMLNode* const item : elementsOf(list)) {
         const CPLXMLNode* const swatch = findElement(item->psChild, "svg");
-        const Layout name = paper.layout(textOf(item), look, 0.0);
+        const Layout name = paper.layout(textOf(item), kKeyLook, 0.0);
         const double width = kSwatch + 4.0 + Paper::widthOf(name);
         if (x > paper.left() && x + width > paper.left() + paper.width()) {
             x = paper.left();
@@ -572,25 +593,40 @@ void printKey(Paper& paper, const CPLXMLNode* list) {
         }
         if (paper.require(Paper::heightOf(name))) x = paper.left();
         if (swatch != nullptr) paper.draw(swatch, x, paper.y() + 2.0, kSwatch);
-        paper.put(name, x + kSwatch + 4.0, paper.y(), look.colour);
-        x += width + kGap;
+        paper.put(name, x + kSwatch + 4.0, paper.y(), kKeyLook.colour);
+        x += width + kKeyGap;
     }
-    paper.space(14.0);
+    paper.space(kBelowKey);
 }
 
 double figureHeight(Paper& paper, const CPLXMLNode* figure, double width) {
     const CPLXMLNode* const svg = findElement(figure->psChild, "svg");
     const CPLXMLNode* const caption = findElement(figure->psChild, "figcaption");
+    const CPLXMLNode* const key = findElement(figure->psChild, "ul");
     return (svg != nullptr ? paper.drawingHeight(svg, width) : 0.0) +
-           (caption != nullptr ? Paper::heightOf(paper.layout(textOf(caption), {8.0}, width)) + 4.0 : 0.0);
+           (key != nullptr ? keyHeight(paper, key) : 0.0) +
+           (caption != nullptr ? Paper::heightOf(paper.layout(textOf(caption), {8.0}, paper.width())) + 4.0
+                               : 0.0);
+}
+
+/// The width at which a figure goes on this page below what takes `above`: somewhat smaller, rather than the
+/// page half empty. The whole width where it would have to be smaller than that.
+double fittingWidth(Paper& paper, const CPLXMLNode* figure, double above) {
+    constexpr double kLeastShare = 0.6, kStep = 0.05;
+    for (double share = 1.0; share > kLeastShare - 0.5 * kStep; share -= kStep) {
+        const double width = share * paper.width();
+        if (above + figureHeight(paper, figure, width) <= paper.room()) return width;
+    }
+    return paper.width();
 }
 
 void printFigure(Paper& paper, const CPLXMLNode* figure) {
-    paper.require(figureHeight(paper, figure, paper.width()));
+    const double width = fittingWidth(paper, figure, 0.0);
+    paper.require(figureHeight(paper, figure, width));
     for (const CPLXMLNode* const part : elementsOf(figure)) {
         if (isElement(part, "svg")) {
-            paper.draw(part, paper.left(), paper.y(), paper.width());
-            paper.space(paper.drawingHeight(part, paper.width()) + 4.0);
+            paper.draw(part, paper.left(), paper.y(), width);
+            paper.space(paper.drawingHeight(part, width) + 4.0);
         } else if (isElement(part, "ul")) {
             printKey(paper, part);
         } else {
@@ -604,7 +640,11 @@ void printPair(Paper& paper, const CPLXMLNode* pair) {
     const std::vector<const CPLXMLNode*> parts = elementsOf(pair);
     const double width = 0.5 * (kTextWidth - kGap);
     double tallest = 0.0;
-    for (const CPLXMLNode* const part : parts) tallest = std::max(tallest, figureHeight(paper, part, width));
+    paper.column(kMargin, width);
+    for (const CPLXMLNode* const part : parts) {
+        tallest = std::max(tallest, figureHeight(paper, part, fittingWidth(paper, part, 0.0)));
+    }
+    paper.wholeWidth();
     paper.require(tallest);
     const double top = paper.y();
     double lowest = top;
@@ -635,7 +675,8 @@ void print(Paper& paper, const CPLXMLNode* node) {
         const CPLXMLNode* next = node->psNext;
         while (next != nullptr && next->eType != CXT_Element) next = next->psNext;
         const bool drawn = next != nullptr && isElement(next, "figure");
-        paper.require(before + (drawn ? 30.0 + figureHeight(paper, next, paper.width()) : 60.0));
+        const double own = before + 30.0;
+        paper.require(drawn ? own + figureHeight(paper, next, fittingWidth(paper, next, own)) : own + 30.0);
         paper.space(before);
         paper.paragraph(textOf(node), {size, true}, after);
     };

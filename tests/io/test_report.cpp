@@ -326,6 +326,19 @@ std::string withoutBlanks(const std::string& text) {
     return out;
 }
 
+// The map is drawn smaller where the words leave no room for all of it, and half a page would stay empty.
+TEST(ReportPdf, TheMapStandsOnTheFirstPage) {
+    const test::TemporaryFolder folder;
+    for (const std::size_t marks : {12UL, 80UL}) {
+        ASSERT_TRUE(writeReportPdf(madeReport({.check_marks = marks}), folder / "report.pdf"));
+        const auto read = test::runProgram(
+            {"/usr/bin/pdftotext", "-f", "1", "-l", "1", (folder / "report.pdf").string(), "-"});
+        ASSERT_EQ(read.exit_code, 0) << read.err;
+        EXPECT_THAT(read.out, HasSubstr("Map of the walk")) << marks;
+        EXPECT_THAT(read.out, HasSubstr("both axes to one scale")) << marks;
+    }
+}
+
 TEST(ReportPdf, SaysWhatThePageSays) {
     const SurveyReport report = reportWithSlopes();
     const test::TemporaryFolder folder;
