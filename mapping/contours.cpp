@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <new>
@@ -336,7 +337,8 @@ double rmsDifference(const ElevationGrid& a, const ElevationGrid& b) {
 }  // namespace
 
 double contourMemory_bytes(const ElevationGrid& heights, const ContourOptions& options) {
-    constexpr double kGrids = 16.0;  // smoothed heights and the two halves of the smoothing
+    // Heights smoothed once and twice, and the two halves of the smoothing.
+    const double grid_bytes = options.sigmas == nullptr ? 16.0 : 20.0;
     // A line cuts some ten of the triangles within a cell (measured without smoothing; 4 with it); its pieces
     // exist twice while they are gathered, and then as vertices.
     constexpr double kPiecesPerCell = 10.0;
@@ -352,7 +354,7 @@ double contourMemory_bytes(const ElevationGrid& heights, const ContourOptions& o
             if (high > low) crossings += (double{high} - double{low}) / options.interval;
         }
     }
-    return kGrids * static_cast<double>(g.size()) + kPiecesPerCell * kBytesPerPiece * crossings;
+    return grid_bytes * static_cast<double>(g.size()) + kPiecesPerCell * kBytesPerPiece * crossings;
 }
 
 Result<ElevationGrid> gaussianSmoothed(const ElevationGrid& heights, double sigma_cells,
@@ -407,6 +409,69 @@ Result<ElevationGrid> gaussianSmoothed(const ElevationGrid& heights, double sigm
     return smooth;
 }
 
+namespace {
+
+/// A bilateral filter (Tomasi and Manduchi 1998): the mean of the heights around by a Gaussian of their
+/// distance and by Tukey's biweight of their difference. What lies beyond a step does not count.
+Result<ElevationGrid> smoothedWithinErrors(const ElevationGrid& heights, const ElevationGrid& sigmas,
+                                           const std::stop_token& stop) {
+    constexpr float kAlikeErrors = 3.0F;  // heights that differ by more errors than this are of other ground
+    assert(sigmas.geometry == heights.geometry);
+    const GridGeometry& g = heights.geometry;
+    const auto reach = static_cast<std::ptrdiff_t>(std::ceil(2.0 * kSmoothingInErrors_cells));
+    std::vector<float> near;
+    for (std::ptrdiff_t i = -reach; i <= reach; ++i) {
+        const double share = static_cast<double>(i) / kSmoothingInErrors_cells;
+        near.push_back(static_cast<float>(std::exp(-0.5 * share * share)));
+    }
+    ElevationGrid smooth = heights;
+    parallelFor(g.rows, [&](std::size_t row) {
+        if (stop.stop_requested()) return;
+        const std::size_t first_row = row - std::min(row, static_cast<std::size_t>(reach));
+        const std::size_t last_row = std::min(row + static_cast<std::size_t>(reach), g.rows - 1);
+        for (std::size_t column = 0; column < g.columns; ++column) {
+            const float here = heights.at(row, column), sigma = sigmas.at(row, column);
+            if (std::isnan(here) || !(sigma > 0.0F)) continue;
+            const float per_unit = 1.0F / (kAlikeErrors * sigma);
+            const std::size_t first = column - std::min(column, static_cast<std::size_t>(reach));
+            const std::size_t last = std::min(column + static_cast<std::size_t>(reach), g.columns - 1);
+            double sum = 0.0, weights = 0.0;
+            for (std::size_t r = first_row; r <= last_row; ++r) {
+                float row_sum = 0.0F, row_weights = 0.0F;
+                for (std::size_t c = first; c <= last; ++c) {
+                    const float difference = heights.at(r, c) - here;
+                    const float share = difference * per_unit;
+                    const float alike = 1.0F - share * share;
+                    // Comparisons with NaN are false: there is no height.
+                    const float weight =
+                        alike > 0.0F ? near[c + static_cast<std::size_t>(reach) - column] * alike * alike
+                                     : 0.0F;
+                    row_weights += weight;
+                    row_sum += alike > 0.0F ? weight * difference : 0.0F;
+                }
+                const double weight = near[r + static_cast<std::size_t>(reach) - row];
+                sum += weight * double{row_sum};
+                weights += weight * double{row_weights};
+            }
+            const float moved = static_cast<float>(sum / weights);
+            smooth.heights_m[row * g.columns + column] = here + std::clamp(moved, -sigma, sigma);
+        }
+    });
+    if (stop.stop_requested()) return cancelled();
+    return smooth;
+}
+
+Result<ElevationGrid> smoothedFor(const ElevationGrid& heights, const ContourOptions& options,
+                                  const std::stop_token& stop) {
+    if (options.sigmas == nullptr || options.smoothing_cells == 0.0) {
+        return gaussianSmoothed(heights, options.smoothing_cells, stop);
+    }
+    const auto within = smoothedWithinErrors(heights, *options.sigmas, stop);
+    return within ? gaussianSmoothed(*within, options.smoothing_cells, stop) : within;
+}
+
+}  // namespace
+
 Result<ContourSet> contourLines(const ElevationGrid& heights, const ContourOptions& options,
                                 Progress& progress, std::stop_token stop) {
     if (auto checked = checkOptions(heights, options); !checked) return tl::unexpected(checked.error());
@@ -414,7 +479,7 @@ Result<ContourSet> contourLines(const ElevationGrid& heights, const ContourOptio
     if (g.rows < 2 || g.columns < 2) return ContourSet{};
     try {
         progress.report(0.0, "smoothing");
-        const auto smoothed = gaussianSmoothed(heights, options.smoothing_cells, stop);
+        const auto smoothed = smoothedFor(heights, options, stop);
         if (!smoothed) return tl::unexpected(smoothed.error());
         const ElevationGrid& smooth = *smoothed;
         std::vector<std::vector<Segment>> by_row(g.rows - 1);

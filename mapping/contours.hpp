@@ -10,11 +10,18 @@
 
 namespace terrawalk {
 
+inline constexpr double kSmoothingInErrors_cells = 3.0;
+
 struct ContourOptions {
     double interval = 1.0;  ///< between levels, > 0; levels are its multiples above `base`
     double base = 0.0;
     /// Standard deviation of the Gaussian that the heights go through first, in cells; 0: none.
     double smoothing_cells = 1.0;
+    /// Standard errors on the same cells, where they are known: before the Gaussian each height goes to the
+    /// mean, by a Gaussian of kSmoothingInErrors_cells, of those around that could be the same ground by its
+    /// standard error, and by no more than that error. Lines on level ground then do not follow noise, and
+    /// steps stay where they are. Not without smoothing.
+    const ElevationGrid* sigmas = nullptr;
     int index_every = 5;  ///< every so many levels one is an index contour
 };
 

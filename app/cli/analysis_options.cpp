@@ -55,6 +55,8 @@ void addContourOptions(CLI::App& command, ContourRequest& r) {
         .add_option("--smoothing", r.options.smoothing_cells,
                     "Standard deviation of the Gaussian that the heights go through first, in cells; 0: none")
         ->capture_default_str();
+    addFile(command, "--uncertainty", r.uncertainty,
+            "Raster of standard errors that heights are smoothed further within [DEM_uncertainty.tif]");
     command
         .add_option("--index-every", r.options.index_every, "Every so many levels one is an index contour")
         ->check(CLI::Range(1, 1000))

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/pipeline/raster_input.hpp"
 #include "app/pipeline/version.hpp"
@@ -14,20 +15,47 @@ namespace {
 
 constexpr double kLabelCells = 3.0;  // height of a label in DXF
 
+/// The standard errors that were named, or those that lie beside the DEM.
+Result<std::optional<ElevationGrid>> sigmasFor(const ContourRequest& request, const DemFile& dem,
+                                               std::filesystem::path& used, const std::stop_token& stop) {
+    used = request.uncertainty;
+    if (used.empty()) {
+        used = request.dem.parent_path() / (request.dem.stem().string() + "_uncertainty.tif");
+        if (std::error_code error; !std::filesystem::is_regular_file(used, error)) used.clear();
+    }
+    if (request.options.smoothing_cells == 0.0) used.clear();
+    if (used.empty()) return std::nullopt;
+    auto read = readAlike(used, dem, stop);
+    if (read) return std::move(*read);
+    if (!request.uncertainty.empty() || read.error().kind == ErrorKind::Cancelled) {
+        return tl::unexpected(read.error());
+    }
+    used.clear();
+    return std::nullopt;
+}
+
+std::string counted(std::size_t n, std::string_view thing) {
+    return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
+}
+
 }  // namespace
 
 Result<ContourOutcome> makeContours(const ContourRequest& request, Progress& progress, std::stop_token stop) {
     progress.report(0.0, "reading");
     const auto dem = readDem(request.dem, stop);
     if (!dem) return tl::unexpected(dem.error());
-    if (request.options.interval > 0.0) {
-        const auto fits =
-            checkMemoryFor("contours of these cells", contourMemory_bytes(dem->grid, request.options),
-                           "choose a larger interval, or cut out a part");
+    ContourOutcome outcome{request, dem->crs.unit.symbol};
+    const auto sigmas = sigmasFor(request, *dem, outcome.uncertainty, stop);
+    if (!sigmas) return tl::unexpected(sigmas.error());
+    ContourOptions options = request.options;
+    if (*sigmas) options.sigmas = &**sigmas;
+    if (options.interval > 0.0) {
+        const auto fits = checkMemoryFor("contours of these cells", contourMemory_bytes(dem->grid, options),
+                                         "choose a larger interval, or cut out a part");
         if (!fits) return tl::unexpected(fits.error());
     }
     PartialProgress cutting(progress, 0.1, 0.8);
-    const auto set = contourLines(dem->grid, request.options, cutting, stop);
+    const auto set = contourLines(dem->grid, options, cutting, stop);
     if (!set) return tl::unexpected(set.error());
     progress.report(0.8, "writing");
     const ExchangeDescription description{dem->crs.wkt2, dem->crs.name, request.dem.stem().string(),
@@ -37,7 +65,6 @@ Result<ContourOutcome> makeContours(const ContourRequest& request, Progress& pro
         !done) {
         return tl::unexpected(done.error());
     }
-    ContourOutcome outcome{request, dem->crs.unit.symbol};
     outcome.smoothing_rms = set->smoothing_rms;
     outcome.lines = set->contours.size();
     outcome.lowest = set->contours.front().level;
@@ -55,10 +82,15 @@ Result<ContourOutcome> makeContours(const ContourRequest& request, Progress& pro
 
 std::string toText(const ContourOutcome& o) {
     return fmt::format(
-        "Contours    {} lines at {} levels from {:g} to {:g} {}, {:.1f} {} long\nSmoothing   {:g} cells, "
-        "moved the "
-        "heights by {:.4f} {} (RMS)\nWritten to {}\n",
-        o.lines, o.levels, o.lowest, o.highest, o.unit, o.length, o.unit, o.request.options.smoothing_cells,
+        "Contours    {} at {} from {:g} to {:g} {}, {:.1f} {} long\nSmoothing   {:g} cells{}, moved the "
+        "heights "
+        "by {:.4f} {} (RMS)\nWritten to {}\n",
+        counted(o.lines, "line"), counted(o.levels, "level"), o.lowest, o.highest, o.unit, o.length, o.unit,
+        o.request.options.smoothing_cells,
+        o.uncertainty.empty()
+            ? ""
+            : fmt::format(", and {:g} within the standard errors of {}", kSmoothingInErrors_cells,
+                          printable(o.uncertainty.filename().string())),
         o.smoothing_rms, o.unit, printable(o.request.output.string()));
 }
 
@@ -71,6 +103,7 @@ std::string toJson(const ContourOutcome& o) {
                                           {"base", o.request.options.base},
                                           {"smoothing_cells", o.request.options.smoothing_cells},
                                           {"smoothing_rms", o.smoothing_rms},
+                                          {"uncertainty", o.uncertainty.string()},
                                           {"lines", o.lines},
                                           {"levels", o.levels},
                                           {"lowest", o.lowest},

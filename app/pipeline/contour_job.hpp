@@ -14,6 +14,9 @@ namespace terrawalk {
 struct ContourRequest {
     std::filesystem::path dem;
     std::filesystem::path output;  ///< .gpkg, .geojson or .dxf
+    /// Raster of standard errors that heights are smoothed within; empty: DEM_uncertainty.tif beside the DEM,
+    /// where there is one on the same cells.
+    std::filesystem::path uncertainty;
     ContourOptions options;
 };
 
@@ -26,6 +29,7 @@ struct ContourOutcome {
     double highest = 0.0;
     double length = 0.0;  ///< of all lines
     double smoothing_rms = 0.0;
+    std::filesystem::path uncertainty;  ///< that was used; empty: none
 };
 
 /// Errors: as readDem(), contourLines() and writeContours().

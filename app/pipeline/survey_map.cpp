@@ -163,7 +163,11 @@ Result<SurveyMap> fusedMap(const Survey& survey, const Products& products, const
 
 Result<std::vector<Contour>> surfaceContours(const Products& products, double interval_m, Progress& progress,
                                              const std::stop_token& stop) {
-    auto lines = contourLines(products.dem, {.interval = interval_m}, progress, stop);
+    std::optional<ElevationGrid> sigmas;
+    if (products.uncertainty) sigmas = ElevationGrid{products.dem.geometry, products.uncertainty->sigmas_m};
+    ContourOptions options{.interval = interval_m};
+    if (sigmas) options.sigmas = &*sigmas;
+    auto lines = contourLines(products.dem, options, progress, stop);
     if (!lines) return tl::unexpected(lines.error());
     return std::move(lines->contours);
 }

@@ -63,6 +63,38 @@ std::vector<std::vector<double>> tableOf(const fs::path& file) {
     return rows;
 }
 
+TEST(ContourCommand, SmoothsWithinTheStandardErrorsThatLieBesideTheDem) {
+    const TemporaryFolder scratch;
+    const std::string dem = made(scratch / "dem.tif", [](double x, double y) {
+        return 38.26 + (x > 20 ? 0.3 : 0.0) + 0.04 * std::sin(0.9 * x) * std::sin(0.9 * y);
+    });
+    const auto contours = [&](std::vector<std::string> more) {
+        std::vector<std::string> command{"contour",    dem,    "-o",    (scratch / "c.gpkg").string(),
+                                         "--interval", "0.25", "--json"};
+        command.insert(command.end(), more.begin(), more.end());
+        const auto outcome = terrawalk(command);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return json::parse(outcome.out);
+    };
+    const double noisy = contours({}).at("length");
+    EXPECT_EQ(contours({}).at("uncertainty"), "");
+    const std::string sigma = made(scratch / "dem_uncertainty.tif", [](double, double) { return 0.05; });
+    const json calm = contours({});
+    EXPECT_EQ(calm.at("uncertainty"), sigma);
+    EXPECT_LT(calm.at("length").get<double>(), 0.5 * noisy);
+    EXPECT_EQ(contours({"--smoothing", "0"}).at("uncertainty"), "");
+    // What lies beside the DEM by chance is passed over, what is named is not.
+    writeBytes(scratch / "dem_uncertainty.tif", "no raster");
+    EXPECT_EQ(contours({}).at("length").get<double>(), noisy);
+    EXPECT_EQ(
+        terrawalk({"contour", dem, "-o", (scratch / "c.gpkg").string(), "--uncertainty", sigma}).exit_code,
+        3);
+    EXPECT_THAT(terrawalk({"contour", hill(scratch / "h.tif"), "-o", (scratch / "c.gpkg").string(),
+                           "--interval", "4", "--base", "40"})
+                    .out,
+                HasSubstr("1 line at 1 level from 40 to 40 m"));
+}
+
 TEST(ContourCommand, DrawsTheLevelsOfAHill) {
     const TemporaryFolder scratch;
     const std::string dem = hill(scratch / "dem.tif");

@@ -174,6 +174,41 @@ TEST(Contours, AreTheSameWithAnyNumberOfThreads) {
     }
 }
 
+// A terrace wall of a metre between two level treads that carry noise about a level.
+TEST(Contours, OnLevelGroundFollowNoNoiseWithinTheStandardErrors) {
+    std::mt19937 random(11);
+    std::normal_distribution<double> noise(0.0, 0.02);
+    const ElevationGrid grid = gridOf(
+        80, 60, 0.5, 0, 30, [&](double x, double) { return (x < 20.0 ? 1.01 : 2.01) + noise(random); });
+    const ElevationGrid sigmas = gridOf(80, 60, 0.5, 0, 30, [](double, double) { return 0.03; });
+    const auto lengthAt = [](const std::vector<Contour>& contours, double level) {
+        double length = 0.0;
+        for (const Contour& contour : contours) {
+            if (std::abs(contour.level - level) > 1e-9) continue;
+            for (std::size_t i = 0; i + 1 < contour.vertices.size(); ++i) {
+                length += (contour.vertices[i + 1] - contour.vertices[i]).norm();
+            }
+        }
+        return length;
+    };
+    ContourOptions options;
+    options.interval = 0.25;
+    const auto plain = contoursOf(grid, options);
+    options.sigmas = &sigmas;
+    const auto within = contoursOf(grid, options);
+    EXPECT_LT(lengthAt(within, 1.0), 0.25 * lengthAt(plain, 1.0));
+    EXPECT_LE(deepestCrossing(within, grid.geometry), 0.0);
+    // Along the wall a line for each level, in its place.
+    EXPECT_NEAR(lengthAt(within, 1.5), 29.5, 0.5);
+    for (const Contour& contour : within) {
+        if (contour.level != 1.5) continue;
+        for (const Vector2d& vertex : contour.vertices) EXPECT_NEAR(vertex.x(), 20.0, 0.1);
+    }
+    options.smoothing_cells = 0.0;
+    EXPECT_EQ(lengthAt(contoursOf(grid, options), 1.0),
+              lengthAt(contoursOf(grid, {.interval = 0.25, .smoothing_cells = 0.0}), 1.0));
+}
+
 TEST(Contours, RefuseWhatMakesNoSense) {
     SilentProgress silent;
     const ElevationGrid grid = gridOf(3, 3, 1, 0, 3, [](double x, double) { return 1000 * x; });
