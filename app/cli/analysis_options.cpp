@@ -92,8 +92,7 @@ void addProfileOptions(CLI::App& command, ProfileRequest& r) {
     command.add_option("-o,--output", r.output, "Table to write; the drawing goes beside it as .svg")
         ->capture_default_str();
     addFile(command, "--uncertainty", r.uncertainty, "Raster of standard errors, drawn as a ribbon");
-    command.add_option("--step", r.step, "Between points along the line [half a cell]")
-        ->check(aboveZero());
+    command.add_option("--step", r.step, "Between points along the line [half a cell]")->check(aboveZero());
     addMarkSource(command, r.marks);
     command.add_option("--mark-distance", r.mark_distance,
                        "Marks farther from the line are left out [two cells]");

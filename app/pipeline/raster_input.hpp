@@ -24,8 +24,8 @@ struct SigmaSource {
     std::filesystem::path raster;
     double value = 0.0;
 };
-/// Root of the summed variances of surfaces on the DEM's cells, for each cell; one for all cells where no raster
-/// tells them. Errors: BadData for a cell with a difference that has no sigma; Cancelled.
+/// Root of the summed variances of surfaces on the DEM's cells, for each cell; one for all cells where no
+/// raster tells them. Errors: BadData for a cell with a difference that has no sigma; Cancelled.
 [[nodiscard]] Result<std::vector<float>> combinedSigmas(const std::vector<SigmaSource>& sources,
                                                         const DemFile& dem, const ElevationGrid& difference,
                                                         const std::stop_token& stop);
