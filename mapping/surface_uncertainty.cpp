@@ -23,21 +23,121 @@ constexpr std::array<double, 3> kBlockSpacings{0.0, 2.0, 5.0};  // 0: points dra
 // weights all over it, have half the variance of one on average.
 constexpr double kSurfaceShare = 0.5 / 1.5;
 constexpr double kDensitySide_m = 2.0;
+constexpr double kTrackMemory_m = 8.0;
+constexpr double kPointsInOneError = 10.0;  // errors of interpolation hang together over their area
+constexpr double kOnePass_s = 20.0;
+constexpr double kLeastDistance_m = 0.1;  // a point nearer weighs no more
 
-constexpr Eigen::Index kTerms = 5;
+constexpr Eigen::Index kTerms = 4;
 using Features = Eigen::Matrix<double, kTerms, 1>;
-using Normal = Eigen::Matrix<double, kTerms, kTerms>;
 
-Features featuresOf(double distance_m, double slope) {
-    const double s2 = slope * slope;
-    const double d2 = distance_m * distance_m;
-    return {1.0, distance_m, d2, s2 * distance_m, s2 * d2};
+double squared(double value) {
+    return value * value;
 }
 
+Features featuresOf(double distance_m, double relief_m) {
+    return {1.0, distance_m, squared(distance_m), squared(relief_m)};
+}
+
+/// Eight places in a circle, opposite ones four apart.
+using Circle = std::array<Eigen::Vector2d, 8>;
+using CircleHeights = std::array<double, 8>;
+
+Circle circleAbout(const Eigen::Vector2d& middle_m, double reach_m) {
+    const double x = std::sqrt(0.5);
+    const Circle directions{Eigen::Vector2d(1.0, 0.0),  {x, x},   {0.0, 1.0},  {-x, x},
+                            Eigen::Vector2d(-1.0, 0.0), {-x, -x}, {0.0, -1.0}, {x, -x}};
+    Circle circle;
+    for (std::size_t i = 0; i < circle.size(); ++i) circle[i] = middle_m + reach_m * directions[i];
+    return circle;
+}
+
+struct Slope {
+    double steepness = 0.0;  ///< root of its mean square
+    Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+};
+
+/// From one side of the circle to the other; where one is not known, from the middle.
+Slope slopeAcross(const CircleHeights& heights_m, double middle_m, double reach_m) {
+    const Circle directions = circleAbout(Eigen::Vector2d::Zero(), 1.0);
+    double squares = 0.0;
+    Slope slope;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double ahead = heights_m[i] - middle_m, behind = middle_m - heights_m[i + 4];
+        double rise_m = 0.5 * (ahead + behind);
+        if (!std::isfinite(behind)) rise_m = ahead;
+        if (!std::isfinite(ahead)) rise_m = behind;
+        if (!std::isfinite(rise_m)) continue;
+        squares += squared(rise_m / reach_m);
+        slope.gradient += 0.5 * rise_m / reach_m * directions[i];
+    }
+    slope.steepness = std::sqrt(0.5 * squares);  // each axis sees the slope times a cosine
+    return slope;
+}
+
+double reliefOf(const CircleHeights& heights_m, double middle_m) {
+    double sum = 0.0, known = 0.0;
+    for (const double height_m : heights_m) {
+        if (!std::isfinite(height_m)) continue;
+        sum += squared(height_m - middle_m);
+        known += 1.0;
+    }
+    return known > 0.0 ? std::sqrt(sum / known) : 0.0;
+}
+
+/// How far about a place the error in plan may have moved the ground: four places at that distance, two to a
+/// side of each axis, have the variance of a normal error.
+double leanReach(double plan_m, double least_m) {
+    return std::max(std::sqrt(2.0) * plan_m, least_m);
+}
+
+struct TrackVariance {
+    double height_m2 = 0.0;
+    double plan_m2 = 0.0;
+};
+
+/// Of the sum of the track's errors at the points, each times its weight.
+TrackVariance varianceOfSum(std::span<const CarryingPoint> points, std::span<const double> weights) {
+    TrackVariance sum;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        for (std::size_t j = 0; j <= i; ++j) {
+            const TrackSigma &a = points[i].track, &b = points[j].track;
+            const double share =
+                i == j ? weights[i] * weights[i]
+                       : 2.0 * weights[i] * weights[j] *
+                             trackCorrelation(a, b, (points[i].place_m - points[j].place_m).norm());
+            sum.height_m2 += share * a.height_m * b.height_m;
+            sum.plan_m2 += share * a.plan_m * b.plan_m;
+        }
+    }
+    return {std::max(sum.height_m2, 0.0), std::max(sum.plan_m2, 0.0)};
+}
+
+/// By inverse squared distance; their sum is one.
+std::vector<double> carryingWeights(std::span<const CarryingPoint> near) {
+    std::vector<double> weights;
+    double sum = 0.0;
+    for (const CarryingPoint& point : near) {
+        weights.push_back(1.0 / (point.squared_distance_m2 + squared(kLeastDistance_m)));
+        sum += weights.back();
+    }
+    for (double& weight : weights) weight /= sum;
+    return weights;
+}
+
+/// A point left out, and what its error says.
 struct Foretold {
     Features features;
     double squared_error_m2;
     double distance_m;
+    double tracks_m2;  ///< variance of what the tracks may differ by
+};
+
+/// Points with what the track says of each.
+struct TrackedPoints {
+    std::vector<Eigen::Vector3d> points_m;
+    std::vector<double> sigmas_m;  ///< empty, or one for each
+    std::vector<TrackSigma> track;
 };
 
 double meanSpacing(const std::vector<Eigen::Vector3d>& points_m) {
@@ -70,120 +170,186 @@ std::vector<std::uint8_t> partsOf(const std::vector<Eigen::Vector3d>& points_m, 
     return parts;
 }
 
-// Slope of a surface about a place, from heights on either side.
-double slopeAt(const HeightInterpolator& surface, const Eigen::Vector2d& place, double height_m,
-               double reach_m) {
-    const std::array<Eigen::Vector2d, 4> sides{
-        place + Eigen::Vector2d(reach_m, 0.0), place - Eigen::Vector2d(reach_m, 0.0),
-        place + Eigen::Vector2d(0.0, reach_m), place - Eigen::Vector2d(0.0, reach_m)};
-    std::array<HeightEstimate, 4> h;
-    surface.estimate(sides, h);
-    const auto along = [&](double plus, double minus) {
-        if (std::isfinite(plus) && std::isfinite(minus)) return (plus - minus) / (2.0 * reach_m);
-        if (std::isfinite(plus)) return (plus - height_m) / reach_m;
-        return std::isfinite(minus) ? (height_m - minus) / reach_m : 0.0;
-    };
-    return std::hypot(along(h[0].height_m, h[1].height_m), along(h[2].height_m, h[3].height_m));
+/// In curve order, so that the order given does not matter. Of points at one place the track of one.
+TrackedPoints inPlace(const std::vector<Eigen::Vector3d>& points_m, const std::vector<double>& sigmas_m,
+                      const std::vector<TrackSigma>& track) {
+    PlacedHeights placed = placedHeights(points_m, sigmas_m);
+    TrackedPoints points{std::move(placed.points_m), std::move(placed.sigmas_m), {}};
+    points.track.resize(points.points_m.size());
+    if (track.empty()) return points;
+    const PlanKdTree tree(points_m);
+    std::vector<Neighbour> here;
+    for (std::size_t i = 0; i < points.points_m.size(); ++i) {
+        tree.nearest(points.points_m[i].head<2>(), 1, here);
+        points.track[i] = track[here.front().point];
+    }
+    return points;
 }
 
-Result<std::vector<Foretold>> foretell(InterpolationMethod method,
-                                       const std::vector<Eigen::Vector3d>& points_m,
-                                       const std::vector<double>& sigmas_m,
+CircleHeights heightsAround(const HeightInterpolator& surface, const Eigen::Vector2d& place, double reach_m) {
+    std::array<HeightEstimate, 8> estimates;
+    surface.estimate(circleAbout(place, reach_m), estimates);
+    CircleHeights heights_m;
+    std::transform(estimates.begin(), estimates.end(), heights_m.begin(),
+                   [](const HeightEstimate& e) { return e.height_m; });
+    return heights_m;
+}
+
+void carryingPoints(const PlanKdTree& tree, const TrackedPoints& points, const Eigen::Vector2d& place,
+                    std::vector<Neighbour>& near, std::vector<CarryingPoint>& carrying) {
+    tree.nearest(place, kCarryingPoints, near);
+    carrying.clear();
+    for (const Neighbour& n : near) {
+        carrying.push_back(
+            {points.points_m[n.point].head<2>(), n.squared_distance_m2, points.track[n.point]});
+    }
+}
+
+Result<std::vector<Foretold>> foretell(InterpolationMethod method, const TrackedPoints& points,
                                        const InterpolationOptions& options,
                                        const std::vector<std::uint8_t>& parts, std::uint8_t part,
-                                       double spacing_m, std::size_t most, const std::stop_token& stop) {
-    std::vector<Eigen::Vector3d> kept, out;
-    std::vector<double> kept_sigmas;
-    for (std::size_t i = 0; i < points_m.size(); ++i) {
+                                       std::size_t most, const std::stop_token& stop) {
+    TrackedPoints kept;
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < points.points_m.size(); ++i) {
         if (parts[i] == part) {
-            out.push_back(points_m[i]);
+            out.push_back(i);
             continue;
         }
-        kept.push_back(points_m[i]);
-        if (!sigmas_m.empty()) kept_sigmas.push_back(sigmas_m[i]);
+        kept.points_m.push_back(points.points_m[i]);
+        kept.track.push_back(points.track[i]);
+        if (!points.sigmas_m.empty()) kept.sigmas_m.push_back(points.sigmas_m[i]);
     }
     std::vector<Foretold> foretold;
-    if (kept.size() < kLeastPoints || out.empty()) return foretold;
+    if (kept.points_m.size() < kLeastPoints || out.empty()) return foretold;
     SilentProgress silent;
-    const auto surface = fitInterpolator(method, kept, kept_sigmas, options, silent, stop);
+    const auto surface = fitInterpolator(method, kept.points_m, kept.sigmas_m, options, silent, stop);
     if (!surface) return tl::unexpected(surface.error());
-    const PlanKdTree tree(kept);
+    const PlanKdTree tree(kept.points_m);
     std::vector<Neighbour> near;
+    std::vector<CarryingPoint> carrying;
     const std::size_t step = (out.size() + most - 1) / most;
     for (std::size_t i = 0; i < out.size(); i += step) {
         if (stop.stop_requested()) return cancelled();
-        const Eigen::Vector2d place = out[i].head<2>();
+        const Eigen::Vector3d& point = points.points_m[out[i]];
+        const Eigen::Vector2d place = point.head<2>();
         HeightEstimate estimate;
         (*surface)->estimate({&place, 1}, {&estimate, 1});
         if (!std::isfinite(estimate.height_m)) continue;
-        tree.nearest(place, 1, near);
+        carryingPoints(tree, kept, place, near, carrying);
         const double distance_m = std::sqrt(near.front().squared_distance_m2);
-        const double slope = slopeAt(**surface, place, estimate.height_m, 0.5 * spacing_m);
-        const double error_m = estimate.height_m - out[i].z();
-        foretold.push_back({featuresOf(distance_m, slope), error_m * error_m, distance_m});
+        const double relief_m = reliefOf(heightsAround(**surface, place, distance_m), estimate.height_m);
+        // What was foretold less what it is held against.
+        std::vector<double> weights = carryingWeights(carrying);
+        const double plan_m = points.track[out[i]].plan_m;
+        carrying.push_back({place, 0.0, points.track[out[i]]});
+        weights.push_back(-1.0);
+        const TrackVariance tracks = varianceOfSum(carrying, weights);
+        const double reach_m = leanReach(plan_m, kLeastDistance_m);
+        const double slope =
+            slopeAcross(heightsAround(**surface, place, reach_m), estimate.height_m, reach_m).steepness;
+        foretold.push_back({featuresOf(distance_m, relief_m), squared(estimate.height_m - point.z()),
+                            distance_m, tracks.height_m2 + squared(slope) * tracks.plan_m2});
     }
     return foretold;
 }
 
-// Least squares with weights, coefficients not below zero: of the ways to set some of them to zero,
-// the one that fits best.
-Features nonNegativeFit(const Normal& normal, const Features& right) {
-    Features best = Features::Zero();
-    double least = 0.0;  // of  x' N x - 2 x' r
-    for (unsigned chosen = 1; chosen < 1U << kTerms; ++chosen) {
-        std::vector<Eigen::Index> free;
-        for (Eigen::Index k = 0; k < kTerms; ++k) {
-            if ((chosen >> k) & 1U) free.push_back(k);
-        }
-        const Eigen::MatrixXd n = normal(free, free);
-        const Eigen::VectorXd r = right(free);
-        const Eigen::LDLT<Eigen::MatrixXd> factor(n);
-        if (factor.info() != Eigen::Success) continue;
-        const Eigen::VectorXd x = factor.solve(r);
-        if (!x.allFinite() || (x.array() < 0.0).any()) continue;
-        const double value = x.dot(n * x) - 2.0 * x.dot(r);
-        if (value >= least) continue;
-        least = value;
-        best.setZero();
-        for (std::size_t k = 0; k < free.size(); ++k) best[free[k]] = x[static_cast<Eigen::Index>(k)];
-    }
-    return best;
-}
-
-// A squared normal error has twice the square of its mean as variance, so each counts by its own mean.
+/// The likeliest coefficients above zero, if errors are normal: steps that multiply, each of which makes them
+/// likelier (Févotte, Bertin and Durrieu 2009, Itakura-Saito divergence).
 Features fitModel(const std::vector<Foretold>& foretold) {
+    constexpr int kSteps = 300;
     double mean = 0.0;
-    for (const Foretold& f : foretold) mean += f.squared_error_m2 / static_cast<double>(foretold.size());
-    Features x = std::max(mean, 1e-12) * Features::Unit(0);
-    for (int round = 0; round < 8; ++round) {
-        Normal normal = Normal::Zero();
-        Features right = Features::Zero();
+    Features mean_features = Features::Zero();
+    for (const Foretold& f : foretold) {
+        mean += f.squared_error_m2 / static_cast<double>(foretold.size());
+        mean_features += f.features / static_cast<double>(foretold.size());
+    }
+    const double least = 1e-6 * mean + 1e-18;
+    Features x = std::max(mean, 1e-12) * (kTerms * mean_features).cwiseMax(1e-12).cwiseInverse();
+    for (int step = 0; step < kSteps; ++step) {
+        Features seen = Features::Zero(), expected = Features::Constant(1e-300);
         for (const Foretold& f : foretold) {
-            const double expected = std::max(x.dot(f.features), 1e-3 * mean + 1e-12);
-            const double weight = 1.0 / (expected * expected);
-            normal += weight * f.features * f.features.transpose();
-            right += weight * f.squared_error_m2 * f.features;
+            const double variance = std::max(x.dot(f.features) + f.tracks_m2, least);
+            seen += f.squared_error_m2 / (variance * variance) * f.features;
+            expected += f.features / variance;
         }
-        x = nonNegativeFit(normal, right);
+        x = x.cwiseProduct(seen.cwiseQuotient(expected).cwiseSqrt());
     }
     return x;
 }
 
-double slopeOfGrid(const ElevationGrid& grid, std::size_t row, std::size_t column) {
-    const double here = grid.at(row, column);
-    const auto height = [&](std::size_t r, std::size_t c) {
-        return r < grid.geometry.rows && c < grid.geometry.columns ? static_cast<double>(grid.at(r, c))
-                                                                   : std::nan("");
+/// Between the four cell centres around; NaN where one of them that counts is.
+double heightOfGrid(const ElevationGrid& grid, const Eigen::Vector2d& place) {
+    const GridGeometry& g = grid.geometry;
+    const double column = (place.x() - g.centreX(0)) / g.cell_m, row = (g.centreY(0) - place.y()) / g.cell_m;
+    if (!(column >= 0.0 && row >= 0.0 && column <= static_cast<double>(g.columns - 1) &&
+          row <= static_cast<double>(g.rows - 1))) {
+        return std::nan("");
+    }
+    const auto c = static_cast<std::size_t>(column), r = static_cast<std::size_t>(row);
+    const double x = column - std::floor(column), y = row - std::floor(row);
+    double height_m = 0.0;
+    const auto add = [&](double weight, std::size_t at_row, std::size_t at_column) {
+        if (weight > 0.0) height_m += weight * static_cast<double>(grid.at(at_row, at_column));
     };
-    const auto along = [&](double plus, double minus) {
-        const double cell = grid.geometry.cell_m;
-        if (!std::isnan(plus) && !std::isnan(minus)) return (plus - minus) / (2.0 * cell);
-        if (!std::isnan(plus)) return (plus - here) / cell;
-        return !std::isnan(minus) ? (here - minus) / cell : 0.0;
-    };
-    // Below zero wraps to what no grid has.
-    return std::hypot(along(height(row, column + 1), height(row, column - 1)),
-                      along(height(row - 1, column), height(row + 1, column)));
+    add((1.0 - x) * (1.0 - y), r, c);
+    add(x * (1.0 - y), r, c + 1);
+    add((1.0 - x) * y, r + 1, c);
+    add(x * y, r + 1, c + 1);
+    return height_m;
+}
+
+CircleHeights heightsAround(const ElevationGrid& grid, const Eigen::Vector2d& place, double reach_m) {
+    CircleHeights heights_m;
+    const Circle circle = circleAbout(place, reach_m);
+    std::transform(circle.begin(), circle.end(), heights_m.begin(),
+                   [&](const Eigen::Vector2d& at) { return heightOfGrid(grid, at); });
+    return heights_m;
+}
+
+/// Variances of cells and what makes them hang together, summed.
+struct ErrorSums {
+    double cells = 0.0;
+    double track_m2 = 0.0;
+    double lean_m2 = 0.0;
+    double interpolation_m2 = 0.0;
+    double steepness2 = 0.0;
+    Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+
+    void add(const CellSigma& sigma) {
+        cells += 1.0;
+        track_m2 += squared(sigma.track_m);
+        lean_m2 += squared(sigma.lean_m);
+        interpolation_m2 += squared(sigma.interpolation_m);
+        steepness2 += squared(sigma.slope);
+        gradient += sigma.gradient;
+    }
+    void add(const ErrorSums& other) {
+        cells += other.cells;
+        track_m2 += other.track_m2;
+        lean_m2 += other.lean_m2;
+        interpolation_m2 += other.interpolation_m2;
+        steepness2 += other.steepness2;
+        gradient += other.gradient;
+    }
+};
+
+/// Range of the spherical correlogram, whose integral over the plane is pi range^2 / 5, that gives the mean
+/// of all heights the variance that its parts give it, each with an integral of its own.
+/// @param point_area_m2  that each point stands for
+double correlationRange(const ErrorSums& sums, double point_area_m2) {
+    const double track_m2 = 2.0 * kPi * squared(kTrackMemory_m) * kOtherPassCorrelation;
+    const double interpolation_m2 = kPointsInOneError * point_area_m2;
+    // An error in plan lifts what rises one way and lowers what falls: the mean slope alone has no opposite.
+    const double one_way = sums.steepness2 > 0.0
+                               ? std::min(1.0, sums.gradient.squaredNorm() / sums.cells / sums.steepness2)
+                               : 0.0;
+    const double total_m2 = sums.track_m2 + sums.lean_m2 + sums.interpolation_m2;
+    if (!(total_m2 > 0.0)) return 0.0;
+    const double integral_m2 = ((sums.track_m2 + one_way * sums.lean_m2) * track_m2 +
+                                (sums.interpolation_m2 + (1.0 - one_way) * sums.lean_m2) * interpolation_m2) /
+                               total_m2;
+    return std::sqrt(5.0 * integral_m2 / kPi);
 }
 
 // Points of each cell.
@@ -222,30 +388,41 @@ std::vector<float> densityOf(const GridGeometry& g, const std::vector<std::uint3
 
 }  // namespace
 
-double InterpolationErrorModel::variance_m2(double distance_m, double slope) const {
-    const Features f = featuresOf(distance_m, slope);
+TrackSigma trackSigmaOf(const GroundPoint& point, const Trajectory& trajectory) {
+    return {std::sqrt(trajectory.epochs[point.epoch].covariance(2, 2)),
+            std::sqrt(0.5 * (squared(point.sigma_e_m) + squared(point.sigma_n_m))), point.run, point.time_s};
+}
+
+double trackCorrelation(const TrackSigma& a, const TrackSigma& b, double apart_m) {
+    const bool one_pass = a.run == b.run && std::abs(a.time_s - b.time_s) < kOnePass_s;
+    return (one_pass ? 1.0 : kOtherPassCorrelation) * std::exp(-apart_m / kTrackMemory_m);
+}
+
+double InterpolationErrorModel::variance_m2(double distance_m, double relief_m) const {
+    const Features f = featuresOf(distance_m, relief_m);
     double variance = kSurfaceShare * coefficients[0];
     for (Eigen::Index k = 1; k < kTerms; ++k) variance += coefficients[static_cast<std::size_t>(k)] * f[k];
     return variance;
 }
 
-Result<InterpolationErrorModel> learnInterpolationError(InterpolationMethod method,
-                                                        const std::vector<Eigen::Vector3d>& points_m,
-                                                        const std::vector<double>& sigmas_m,
-                                                        const InterpolationOptions& options,
-                                                        std::uint64_t seed, Progress& progress,
-                                                        std::stop_token stop) {
+Result<InterpolationErrorModel> learnInterpolationError(
+    InterpolationMethod method, const std::vector<Eigen::Vector3d>& points_m,
+    const std::vector<double>& sigmas_m, const std::vector<TrackSigma>& track,
+    const InterpolationOptions& options, std::uint64_t seed, Progress& progress, std::stop_token stop) {
     if (points_m.size() < kLeastPoints) {
         return badData("too few points to learn how far interpolation is off", {}, 0,
                        "walk farther, or keep more points");
     }
-    // Parts go by the place, so that the order given does not matter.
-    const PlacedHeights placed = placedHeights(points_m, sigmas_m);
-    const std::vector<Eigen::Vector3d>& points = placed.points_m;
-    const double spacing_m = meanSpacing(points);
+    if (!track.empty() && track.size() != points_m.size()) {
+        return usageError("each point of a surface needs one sigma of the track", "");
+    }
+    const TrackedPoints points = inPlace(points_m, sigmas_m, track);
+    const double spacing_m = meanSpacing(points.points_m);
     const std::size_t jobs = kBlockSpacings.size() * kParts;
     std::vector<std::vector<std::uint8_t>> parts;
-    for (const double spacings : kBlockSpacings) parts.push_back(partsOf(points, spacings * spacing_m, seed));
+    for (const double spacings : kBlockSpacings) {
+        parts.push_back(partsOf(points.points_m, spacings * spacing_m, seed));
+    }
     std::vector<Result<std::vector<Foretold>>> found(jobs, std::vector<Foretold>{});
     std::atomic<std::size_t> done{0};
     parallelFor(jobs, [&](std::size_t job) {
@@ -253,9 +430,8 @@ Result<InterpolationErrorModel> learnInterpolationError(InterpolationMethod meth
             found[job] = cancelled();
             return;
         }
-        found[job] =
-            foretell(method, points, placed.sigmas_m, options, parts[job / kParts],
-                     static_cast<std::uint8_t>(job % kParts), spacing_m, kMostForetold / kParts, stop);
+        found[job] = foretell(method, points, options, parts[job / kParts],
+                              static_cast<std::uint8_t>(job % kParts), kMostForetold / kParts, stop);
         progress.report(static_cast<double>(++done) / static_cast<double>(jobs),
                         "learning interpolation errors");
     });
@@ -273,7 +449,7 @@ Result<InterpolationErrorModel> learnInterpolationError(InterpolationMethod meth
     std::copy(x.begin(), x.end(), model.coefficients.begin());
     for (const Foretold& f : foretold) {
         model.greatest_distance_m = std::max(model.greatest_distance_m, f.distance_m);
-        model.left_out.add(std::sqrt(f.squared_error_m2), std::sqrt(x.dot(f.features)));
+        model.left_out.add(std::sqrt(f.squared_error_m2), std::sqrt(x.dot(f.features) + f.tracks_m2));
     }
     return model;
 }
@@ -284,20 +460,19 @@ double CellSigma::total_m() const {
 
 CellSigma cellSigma(const ElevationGrid& heights, std::size_t row, std::size_t column,
                     std::span<const CarryingPoint> near, const InterpolationErrorModel& model) {
-    const double cell_m = heights.geometry.cell_m;
-    double weights = 0.0, height_m = 0.0, plan_m = 0.0;
-    for (const CarryingPoint& point : near) {
-        const double weight = 1.0 / (point.squared_distance_m2 + 0.25 * cell_m * cell_m);
-        weights += weight;
-        height_m += weight * point.track.height_m;
-        plan_m += weight * point.track.plan_m;
-    }
+    const Eigen::Vector2d centre(heights.geometry.centreX(column), heights.geometry.centreY(row));
+    const double height_m = heights.at(row, column);
+    const TrackVariance track = varianceOfSum(near, carryingWeights(near));
     CellSigma sigma;
     sigma.distance_m = std::sqrt(near.front().squared_distance_m2);
-    sigma.slope = slopeOfGrid(heights, row, column);
-    sigma.track_m = height_m / weights;
-    sigma.lean_m = sigma.slope * plan_m / weights;
-    sigma.interpolation_m = std::sqrt(model.variance_m2(sigma.distance_m, sigma.slope));
+    const double reach_m = leanReach(std::sqrt(track.plan_m2), heights.geometry.cell_m);
+    const Slope slope = slopeAcross(heightsAround(heights, centre, reach_m), height_m, reach_m);
+    sigma.slope = slope.steepness;
+    sigma.gradient = slope.gradient;
+    sigma.track_m = std::sqrt(track.height_m2);
+    sigma.lean_m = sigma.slope * std::sqrt(track.plan_m2);
+    const double relief_m = reliefOf(heightsAround(heights, centre, sigma.distance_m), height_m);
+    sigma.interpolation_m = std::sqrt(model.variance_m2(sigma.distance_m, relief_m));
     return sigma;
 }
 
@@ -322,6 +497,8 @@ Result<SurfaceUncertainty> surfaceUncertainty(const ElevationGrid& heights,
         result.sigmas_m.assign(g.size(), kNoHeight);
         result.sources.assign(g.size(), static_cast<std::uint8_t>(CellSource::None));
         const PlanKdTree tree(points_m);
+        const TrackedPoints points{points_m, {}, track};
+        std::vector<ErrorSums> row_sums(g.rows);
         std::atomic<std::size_t> rows_done{0};
         parallelFor(g.rows, [&](std::size_t row) {
             if (stop.stop_requested()) return;
@@ -330,14 +507,13 @@ Result<SurfaceUncertainty> surfaceUncertainty(const ElevationGrid& heights,
             for (std::size_t column = 0; column < g.columns; ++column) {
                 const std::size_t cell = row * g.columns + column;
                 if (std::isnan(heights.heights_m[cell])) continue;
-                tree.nearest({g.centreX(column), g.centreY(row)}, kCarryingPoints, near);
-                carrying.clear();
-                for (const Neighbour& n : near) carrying.push_back({n.squared_distance_m2, track[n.point]});
+                carryingPoints(tree, points, {g.centreX(column), g.centreY(row)}, near, carrying);
                 CellSigma sigma = cellSigma(heights, row, column, carrying, model);
                 if (!variances_m2.empty()) {
                     sigma.interpolation_m = std::sqrt(static_cast<double>(variances_m2[cell]));
                 }
                 result.sigmas_m[cell] = static_cast<float>(sigma.total_m());
+                row_sums[row].add(sigma);
                 const bool tested = sigma.distance_m <= model.greatest_distance_m;
                 result.sources[cell] = static_cast<std::uint8_t>(
                     counts[cell] > 0 ? CellSource::Measured
@@ -346,6 +522,10 @@ Result<SurfaceUncertainty> surfaceUncertainty(const ElevationGrid& heights,
             progress.report(static_cast<double>(++rows_done) / static_cast<double>(g.rows),
                             "propagating uncertainty");
         });
+        ErrorSums sums;
+        for (const ErrorSums& row : row_sums) sums.add(row);
+        const double area_m2 = sums.cells * squared(g.cell_m);
+        result.correlation_range_m = correlationRange(sums, area_m2 / static_cast<double>(points_m.size()));
     } catch (const std::bad_alloc&) {
         return systemError("not enough memory for the uncertainty of the grid", {});
     }

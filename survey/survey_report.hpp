@@ -215,13 +215,15 @@ struct UncertaintySummary {
     double median_m = 0.0;
     double error95_m = 0.0;                                        ///< 95 % of the cells have a smaller sigma
     std::size_t measured = 0, interpolated = 0, extrapolated = 0;  ///< cells, see CellSource
-    /// Squared error of interpolation at distance d and slope s: c0 / 3 + c1 d + c2 d^2 + (c3 d + c4 d^2)
-    /// s^2. Zeros where the method's own variance is used.
-    std::array<double, 5> coefficients{};
+    /// Squared error of interpolation at distance d, where the places that far around differ in height by r
+    /// (root mean square): c0 / 3 + c1 d + c2 d^2 + c3 r^2. Zeros where the method's own variance is used.
+    std::array<double, 4> coefficients{};
     bool own_variance = false;         ///< whether the method's own variance is used, see the notes
     double at_point_m = 0.0;           ///< error of interpolation where a point lies, one sigma
     double greatest_distance_m = 0.0;  ///< from a point, of what the errors were learnt from
-    SigmaCoverage left_out;            ///< the points left out against what they taught
+    double correlation_range_m =
+        0.0;                 ///< over which errors hang together, for volumes; see SurfaceUncertainty
+    SigmaCoverage left_out;  ///< the points left out against what they taught
 };
 
 /// How kriging takes heights to differ by their distance: a nugget, and a part that rises to the sill.

@@ -66,11 +66,8 @@ void addSigma(const Products& products, const SurveyMap& map, std::size_t cell, 
     std::vector<CarryingPoint> carrying;
     for (const Distance& d : near) {
         const GroundPoint& point = products.ground_points[d.point];
-        const TrajectoryEpoch& epoch = products.trajectories[point.run].epochs[point.epoch];
-        carrying.push_back(
-            {d.squared_m2,
-             {std::sqrt(epoch.covariance(2, 2)),
-              std::sqrt(0.5 * (point.sigma_e_m * point.sigma_e_m + point.sigma_n_m * point.sigma_n_m))}});
+        carrying.push_back({map.ground_points_m[d.point].head<2>(), d.squared_m2,
+                            trackSigmaOf(point, products.trajectories[point.run])});
     }
     const InterpolationErrorModel model = modelOf(*summary);
     CellSigma sigma = cellSigma(products.dem, row, column, carrying, model);
@@ -87,8 +84,9 @@ void addSigma(const Products& products, const SurveyMap& map, std::size_t cell, 
     place.distance_m = sigma.distance_m;
     place.parts = SigmaParts{sigma.track_m, sigma.lean_m * std::sqrt(share),
                              sigma.lean_m * std::sqrt(1.0 - share), sigma.interpolation_m};
-    // Two passes with errors of their own, and a point on the spot.
-    const double shared = 0.5 * (sigma.track_m * sigma.track_m + sigma.lean_m * sigma.lean_m);
+    // The mean of two passes, and a point on the spot.
+    const double shared =
+        0.5 * (1.0 + kOtherPassCorrelation) * (sigma.track_m * sigma.track_m + sigma.lean_m * sigma.lean_m);
     place.sigma_after_pass_m = std::sqrt(shared + summary->at_point_m * summary->at_point_m);
 }
 

@@ -362,6 +362,7 @@ struct GridUncertainty {
 /// The variance that the method tells, where it tells one; else what left-out points say of it.
 Result<InterpolationError> interpolationError(const Surface& surface, std::vector<float> variances_m2,
                                               const std::vector<Eigen::Vector3d>& points_m,
+                                              const std::vector<TrackSigma>& track,
                                               const PipelineConfig& config, Progress& progress,
                                               const std::stop_token& stop) {
     InterpolationError error;
@@ -371,7 +372,7 @@ Result<InterpolationError> interpolationError(const Surface& surface, std::vecto
         error.variances_m2 = std::move(variances_m2);
         return error;
     }
-    auto model = learnInterpolationError(surface.model.method(), points_m, {},
+    auto model = learnInterpolationError(surface.model.method(), points_m, {}, track,
                                          modelOptions(config).interpolation, config.seed, progress, stop);
     if (!model) return tl::unexpected(model.error());
     error.model = *model;
@@ -388,13 +389,10 @@ Result<GridUncertainty> uncertaintyOf(const Surface& surface, const std::vector<
     std::vector<TrackSigma> track;
     for (const GroundPoint& point : surface.ground_points) {
         if (point.state != GroundPointState::Used) continue;
-        const TrajectoryEpoch& epoch = runs[point.run].trajectory.epochs[point.epoch];
-        track.push_back(
-            {std::sqrt(epoch.covariance(2, 2)),
-             std::sqrt(0.5 * (point.sigma_e_m * point.sigma_e_m + point.sigma_n_m * point.sigma_n_m))});
+        track.push_back(trackSigmaOf(point, runs[point.run].trajectory));
     }
     PartialProgress learning(progress, 0.0, 0.8), propagating(progress, 0.8, 1.0);
-    auto error = interpolationError(surface, std::move(variances_m2), *points, config, learning, stop);
+    auto error = interpolationError(surface, std::move(variances_m2), *points, track, config, learning, stop);
     if (!error) return tl::unexpected(error.error());
     auto cells = surfaceUncertainty(dem, *points, track, *error, propagating, stop);
     if (!cells) return tl::unexpected(cells.error());
@@ -435,6 +433,7 @@ UncertaintySummary summaryOf(const GridUncertainty& uncertainty) {
     summary.own_variance = !uncertainty.interpolation.variances_m2.empty();
     summary.at_point_m = errorAtPoint(uncertainty);
     summary.greatest_distance_m = model.greatest_distance_m;
+    summary.correlation_range_m = uncertainty.cells.correlation_range_m;
     summary.left_out = model.left_out;
     return summary;
 }

@@ -35,7 +35,8 @@ std::vector<Eigen::Vector3d> scattered(std::size_t n, double noise_m, std::uint6
 
 InterpolationErrorModel learnt(const std::vector<Eigen::Vector3d>& points) {
     SilentProgress silent;
-    const auto model = learnInterpolationError(InterpolationMethod::Linear, points, {}, {}, 1, silent, {});
+    const auto model =
+        learnInterpolationError(InterpolationMethod::Linear, points, {}, {}, {}, 1, silent, {});
     EXPECT_TRUE(model) << model.error().text();
     return *model;
 }
@@ -47,6 +48,11 @@ ElevationGrid gridOf(const std::vector<Eigen::Vector3d>& points, double cell_m) 
     return interpolateGrid(*surface, {0.0, 60.0, cell_m, side, side}, {}, silent, {}).value().heights;
 }
 
+/// Root mean square height difference to the places all around.
+double onSlope(double distance_m, double slope) {
+    return distance_m * slope / std::sqrt(2.0);
+}
+
 TEST(InterpolationError, KnowsTheNoiseOfPointsOnAPlane) {
     std::mt19937_64 engine(5);
     std::vector<Eigen::Vector3d> points = scattered(4000, 0.0, 3);
@@ -56,12 +62,12 @@ TEST(InterpolationError, KnowsTheNoiseOfPointsOnAPlane) {
     // two variances. Nothing grows with distance on a plane.
     EXPECT_GT(model.coefficients[0], 0.0025);
     EXPECT_LT(model.coefficients[0], 0.0055);
-    EXPECT_LT(model.variance_m2(3.0, 0.1), 2.0 * model.variance_m2(0.0, 0.1));
+    EXPECT_LT(model.variance_m2(3.0, onSlope(3.0, 0.1)), 2.0 * model.variance_m2(0.0, 0.0));
 }
 
 TEST(InterpolationError, GrowsWithDistanceOnRollingGround) {
     const InterpolationErrorModel model = learnt(scattered(3000, 0.0, 4));
-    EXPECT_GT(model.variance_m2(4.0, 0.2), 4.0 * model.variance_m2(0.5, 0.2));
+    EXPECT_GT(model.variance_m2(4.0, onSlope(4.0, 0.2)), 4.0 * model.variance_m2(0.5, onSlope(0.5, 0.2)));
     EXPECT_GT(model.greatest_distance_m, 4.0);
     // Its own teachers, which are not normal but near.
     const double within = static_cast<double>(model.left_out.within) / static_cast<double>(model.left_out.n);
@@ -81,14 +87,14 @@ TEST(InterpolationError, IsTheSameForAnyOrderAndNumberOfThreads) {
 
 TEST(InterpolationError, NeedsPoints) {
     SilentProgress silent;
-    const auto few =
-        learnInterpolationError(InterpolationMethod::Linear, scattered(20, 0.0, 1), {}, {}, 1, silent, {});
+    const auto few = learnInterpolationError(InterpolationMethod::Linear, scattered(20, 0.0, 1), {}, {}, {},
+                                             1, silent, {});
     ASSERT_FALSE(few);
     EXPECT_EQ(few.error().kind, ErrorKind::BadData);
     std::stop_source stop;
     stop.request_stop();
     const auto stopped = learnInterpolationError(InterpolationMethod::Linear, scattered(2000, 0.0, 1), {}, {},
-                                                 1, silent, stop.get_token());
+                                                 {}, 1, silent, stop.get_token());
     ASSERT_FALSE(stopped);
     EXPECT_EQ(stopped.error().kind, ErrorKind::Cancelled);
 }
@@ -190,9 +196,42 @@ TEST(SurfaceUncertainty, TakesTheMethodsOwnVarianceWhereItHasOne) {
     const std::vector<TrackSigma> track(points.size(), {0.15, 0.8});
     const auto u = surfaceUncertainty(dem, points, track, own, silent, {});
     ASSERT_TRUE(u);
-    EXPECT_NEAR(u->sigmas_m[dem.geometry.cellAt(30.0, 30.0).value()], std::hypot(0.15, 0.2), 1e-6);
+    // The points that carry a cell share all but a little of the track's error.
+    EXPECT_NEAR(u->sigmas_m[dem.geometry.cellAt(30.0, 30.0).value()], std::hypot(0.15, 0.2), 0.01);
     const InterpolationError short_one{InterpolationErrorModel{}, {0.04F}};
     EXPECT_EQ(surfaceUncertainty(dem, points, track, short_one, silent, {}).error().kind, ErrorKind::Usage);
+}
+
+// Tracks that differ as trackCorrelation() says: what they do to heights is theirs, and no error of the way
+// between the points.
+TEST(InterpolationError, TakesWhatTracksDifferByForTheirs) {
+    constexpr double kTrack_m = 0.15, kNoise_m = 0.03;
+    std::vector<Eigen::Vector3d> points;
+    std::vector<TrackSigma> track;
+    std::mt19937_64 engine(9);
+    for (std::uint32_t pass = 0; pass < 20; ++pass) {
+        // An error that forgets itself along the pass, as the correlation has it; passes are of runs apart.
+        double error_m = kTrack_m * normal(engine);
+        const double kept = std::exp(-0.5 / 8.0);
+        for (int i = 0; i < 120; ++i) {
+            error_m = kept * error_m + std::sqrt(1.0 - kept * kept) * kTrack_m * normal(engine);
+            points.emplace_back(0.5 * i, 3.0 * pass, error_m + kNoise_m * normal(engine));
+            track.push_back({kTrack_m, 0.0, pass, 0.5 * i});
+        }
+    }
+    SilentProgress silent;
+    const auto told =
+        learnInterpolationError(InterpolationMethod::Linear, points, {}, track, {}, 1, silent, {}).value();
+    const InterpolationErrorModel not_told = learnt(points);
+    // Level ground: 3 m away there is nothing but noise and tracks.
+    EXPECT_LT(told.variance_m2(3.0, 0.0), 0.5 * not_told.variance_m2(3.0, 0.0));
+    EXPECT_GT(told.left_out.mean_square, 0.6);
+    EXPECT_LT(told.left_out.mean_square, 1.4);
+    EXPECT_EQ(
+        learnInterpolationError(InterpolationMethod::Linear, points, {}, {TrackSigma{}}, {}, 1, silent, {})
+            .error()
+            .kind,
+        ErrorKind::Usage);
 }
 
 TEST(SurfaceUncertainty, AddsTheTrackWithoutAveragingItAway) {
@@ -206,7 +245,78 @@ TEST(SurfaceUncertainty, AddsTheTrackWithoutAveragingItAway) {
     ASSERT_TRUE(u);
     const auto cell = dem.geometry.cellAt(30.0, 30.0);
     ASSERT_TRUE(cell);
-    EXPECT_NEAR(u->sigmas_m[*cell], std::hypot(0.3, 0.5 * 0.8), 1e-3);
+    // One pass, and points within a metre or two: they share all but a tenth of their variance.
+    const double all_m = std::hypot(0.3, 0.5 * 0.8);
+    EXPECT_LE(u->sigmas_m[*cell], all_m + 1e-6);
+    EXPECT_GT(u->sigmas_m[*cell], 0.95 * all_m);
+}
+
+TEST(SurfaceUncertainty, BetweenTwoPassesTheirTracksCountTogether) {
+    std::vector<Eigen::Vector3d> points;
+    std::vector<TrackSigma> track;
+    for (std::uint32_t pass = 0; pass < 2; ++pass) {
+        for (int i = 0; i < 60; ++i) {
+            points.emplace_back(i + 0.25, 20.25 + 2.0 * pass, 1.0);
+            track.push_back({0.2, 0.0, pass, 1.0 * i});
+        }
+    }
+    const ElevationGrid dem = gridOf(points, 0.5);
+    SilentProgress silent;
+    const auto u = surfaceUncertainty(dem, points, track, {InterpolationErrorModel{}, {}}, silent, {});
+    ASSERT_TRUE(u);
+    const double on_pass = u->sigmas_m[dem.geometry.cellAt(30.25, 20.25).value()];
+    const double between = u->sigmas_m[dem.geometry.cellAt(30.25, 21.25).value()];
+    EXPECT_NEAR(on_pass, 0.2, 0.01);
+    // Half and half, 2 m apart, with 0.6 exp(-2 / 8) in common: 0.2 sqrt(0.73), a little less for four
+    // points.
+    EXPECT_NEAR(between, 0.2 * std::sqrt(0.5 * (1.0 + kOtherPassCorrelation * std::exp(-0.25))), 0.01);
+}
+
+TEST(SurfaceUncertainty, KnowsOverWhatDistanceErrorsHangTogether) {
+    const std::vector<Eigen::Vector3d> points = scattered(3600, 0.0, 8);  // one a square metre
+    const ElevationGrid dem = gridOf(points, 0.5);
+    const auto rangeOf = [&](double track_m, double noise_m2) {
+        InterpolationErrorModel model;
+        model.coefficients = {noise_m2, 0.0, 0.0, 0.0};
+        SilentProgress silent;
+        return surfaceUncertainty(dem, points, std::vector<TrackSigma>(points.size(), {track_m, 0.0}),
+                                  {model, {}}, silent, {})
+            ->correlation_range_m;
+    };
+    // The integral of the spherical correlogram, pi R^2 / 5, is that of 0.6 exp(-d / 8), or ten square
+    // metres.
+    EXPECT_NEAR(rangeOf(0.1, 0.0), 8.0 * std::sqrt(10.0 * kOtherPassCorrelation), 1e-6);
+    EXPECT_NEAR(rangeOf(0.0, 0.01), std::sqrt(50.0 / kPi), 0.1);
+    const double both = rangeOf(0.1, 0.01);
+    EXPECT_GT(both, rangeOf(0.0, 0.01));
+    EXPECT_LT(both, rangeOf(0.1, 0.0));
+    EXPECT_EQ(rangeOf(0.0, 0.0), 0.0);
+}
+
+// Beside a riser the error in plan counts on the tread, too; and single points that stand off do not make a
+// slope of level ground.
+TEST(SurfaceUncertainty, LeansOverTheReachOfTheErrorInPlan) {
+    const auto leanAt = [](const std::vector<Eigen::Vector3d>& points, double plan_m, double x) {
+        const ElevationGrid dem = gridOf(points, 0.25);
+        const auto cell = dem.geometry.cellAt(x, 30.1).value();
+        const CarryingPoint near{{x, 30.1}, 0.0, {0.0, plan_m}};
+        return cellSigma(dem, cell / dem.geometry.columns, cell % dem.geometry.columns, {&near, 1}, {})
+            .lean_m;
+    };
+    std::mt19937_64 engine(4);
+    std::vector<Eigen::Vector3d> riser, level;
+    for (double y = 0.0; y <= 60.0; y += 0.5) {
+        for (double x = 0.0; x <= 60.0; x += 0.5) {
+            riser.emplace_back(x, y, x < 30.0 ? 0.0 : 1.0);
+            level.emplace_back(x, y, 0.05 * normal(engine));
+        }
+    }
+    EXPECT_GT(leanAt(riser, 0.7, 29.1), 0.2);  // the face begins 0.4 m on
+    EXPECT_LT(leanAt(riser, 0.7, 27.1), 1e-6);
+    double squares = 0.0;
+    for (double x = 10.1; x < 50.0; x += 1.0) squares += std::pow(leanAt(level, 0.7, x), 2);
+    // Differences of 0.05 sqrt(2) over 2 m, in two axes, times 0.7 m: 0.035 m; between points less.
+    EXPECT_LT(std::sqrt(squares / 40.0), 0.035);
 }
 
 TEST(SurfaceUncertainty, TellsWhereCellsCameFrom) {
@@ -218,7 +328,7 @@ TEST(SurfaceUncertainty, TellsWhereCellsCameFrom) {
     }
     const ElevationGrid dem = gridOf(points, 0.5);
     InterpolationErrorModel model;
-    model.coefficients = {0.0, 0.01, 0.0, 0.0, 0.0};
+    model.coefficients = {0.0, 0.01, 0.0, 0.0};
     model.greatest_distance_m = 3.0;
     SilentProgress silent;
     const auto u =
