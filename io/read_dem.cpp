@@ -81,6 +81,10 @@ Result<DemFile> readDem(const std::filesystem::path& file, std::stop_token stop)
         DemFile dem{{*geometry, std::vector<float>(geometry->size())}, std::move(*crs), {}};
         if (const char* made_of = dataset->GetMetadataItem(kPointsSha256); made_of != nullptr)
             dem.points_sha256 = made_of;
+        if (const char* range = dataset->GetMetadataItem(kCorrelationRange); range != nullptr) {
+            const double value = CPLAtof(range);
+            if (std::isfinite(value) && value > 0.0) dem.correlation_range = value;
+        }
         if (auto done = readBand(*dataset->GetRasterBand(1), dem.grid, errors, file, stop); !done) {
             return tl::unexpected(done.error());
         }

@@ -16,6 +16,8 @@ struct DemFile {
     CoordinateSystem crs;  ///< a local one in metres where the file has none
     /// Of the file of points that it was made from, where Terrawalk made it and wrote so; empty: not told.
     std::string points_sha256;
+    /// Of standard errors that Terrawalk made: over which distance the errors hang together; 0: not told.
+    double correlation_range = 0.0;
 };
 
 /// Reads any raster that GDAL reads. Errors: BadData for a file without raster, without place, turned, with

@@ -21,6 +21,8 @@ namespace terrawalk {
 /// What a DEM file says of itself beside the heights.
 /// Metadata item of a DEM: hash of the file of points that it was made from.
 inline constexpr const char* kPointsSha256 = "POINTS_SHA256";
+/// Of a raster of standard errors: range of the spherical correlogram of the errors, in the unit of the band.
+inline constexpr const char* kCorrelationRange = "CORRELATION_RANGE";
 
 struct DemDescription {
     std::string crs_wkt2;                                       ///< as MapProjection::wkt2() gives it

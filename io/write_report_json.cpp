@@ -178,6 +178,7 @@ Json uncertaintyJson(const std::optional<UncertaintySummary>& u) {
             {"own_variance", u->own_variance},
             {"at_point_m", u->at_point_m},
             {"greatest_distance_m", u->greatest_distance_m},
+            {"correlation_range_m", u->correlation_range_m},
             {"left_out", coverageJson(u->left_out)}};
 }
 

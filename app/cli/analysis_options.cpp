@@ -72,10 +72,10 @@ void addDifferenceOptions(CLI::App& command, DifferenceRequest& r) {
     addFile(command, "--later-uncertainty", r.later_uncertainty, "Raster of the later standard errors");
     command.add_option("--sigma", r.sigma, "Standard error of one DEM's height where no raster tells it")
         ->capture_default_str();
-    command
-        .add_option("--correlation-range", r.correlation_range,
-                    "Distance beyond which height errors are independent; 0: each cell on its own")
-        ->capture_default_str();
+    command.add_option(
+        "--correlation-range", r.correlation_range,
+        "Distance beyond which height errors are independent; 0: each cell on its own [as the rasters "
+        "of standard errors tell, else 0]");
     command
         .add_option("--common-sigma", r.common_sigma,
                     "Standard error of the change that all cells share, such as a datum")

@@ -100,10 +100,10 @@ void addVolumeOptions(CLI::App& command, VolumeRequest& r) {
         ->type_name("FILE");
     command.add_option("--sigma", r.sigma, "Standard error of a height where no raster tells it")
         ->capture_default_str();
-    command
-        .add_option("--correlation-range", r.correlation_range,
-                    "Distance beyond which height errors are independent; 0: each cell on its own")
-        ->capture_default_str();
+    command.add_option(
+        "--correlation-range", r.correlation_range,
+        "Distance beyond which height errors are independent; 0: each cell on its own [as the rasters "
+        "of standard errors tell, else 0]");
     command
         .add_option("--common-sigma", r.common_sigma,
                     "Standard error of what all cells share, such as a datum")

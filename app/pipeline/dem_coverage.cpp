@@ -17,8 +17,7 @@ constexpr std::uint64_t kCellStream = 0x636f766572616765;  // "coverage"
 }  // namespace
 
 Result<DemCoverage> measureDemCoverage(const SimulatedSurvey& simulated, const PipelineConfig& config,
-                                       std::uint64_t seed, double error_range_m, Progress& progress,
-                                       std::stop_token stop) {
+                                       std::uint64_t seed, Progress& progress, std::stop_token stop) {
     Survey survey = simulated.survey;
     survey.crs.clear();  // so that the map frame is the frame of the truth
     const auto products = process(survey, config, progress, stop);
@@ -57,8 +56,9 @@ Result<DemCoverage> measureDemCoverage(const SimulatedSurvey& simulated, const P
         above_plane.heights_m[cell] = static_cast<float>(static_cast<double>(heights[cell]) - mean_m);
         true_m3 += (truth(cell) - mean_m) * g.cell_m * g.cell_m;
     }
+    coverage.error_range_m = products->uncertainty->correlation_range_m;
     const VolumeResult volume =
-        volumeOf(above_plane, {.sigmas_m = sigmas, .correlation_range_m = error_range_m}).value();
+        volumeOf(above_plane, {.sigmas_m = sigmas, .correlation_range_m = coverage.error_range_m}).value();
     coverage.volume_error_m3 = volume.net_m3 - true_m3;
     coverage.volume_sigma_m3 = volume.net_sigma_m3;
     coverage.area_m2 = volume.area_m2;

@@ -18,15 +18,14 @@ struct DemCoverage {
     double mean_sigma_m = 0.0;     ///< that was predicted for them
     double volume_error_m3 = 0.0;  ///< above a plane at the DEM's mean height, less the true one
     double volume_sigma_m3 = 0.0;  ///< that was predicted
+    double error_range_m = 0.0;    ///< over which errors hang together, as was predicted
     double area_m2 = 0.0;          ///< of the DEM
 };
 
 /// Processes the survey as process() does, in the local frame, and compares with the true ground. 500 cells
 /// are drawn by the seed. Simulated figures. Errors: as process().
-/// @param error_range_m  distance over which errors of the DEM hang together, for the volume
 [[nodiscard]] Result<DemCoverage> measureDemCoverage(const SimulatedSurvey& simulated,
                                                      const PipelineConfig& config, std::uint64_t seed,
-                                                     double error_range_m, Progress& progress,
-                                                     std::stop_token stop);
+                                                     Progress& progress, std::stop_token stop);
 
 }  // namespace terrawalk

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr double kBytesPerCell = 40.0;  // two DEMs, change, significance, sigmas and what writing takes
 
 Result<void> checkRequest(const DifferenceRequest& r) {
-    for (const double value : {r.sigma, r.correlation_range, r.common_sigma}) {
+    for (const double value : {r.sigma, r.correlation_range.value_or(0.0), r.common_sigma}) {
         if (!(value >= 0.0) || !std::isfinite(value))
             return usageError("sigmas and ranges may not be below zero");
     }
@@ -82,13 +82,15 @@ Result<DifferenceOutcome> compareDems(const DifferenceRequest& request, Progress
         change, stop);
     if (!sigmas) return tl::unexpected(sigmas.error());
     progress.report(0.4, "comparing");
-    auto compared = demDifference(
-        later->grid, *earlier, {std::move(*sigmas), request.correlation_range, request.common_sigma}, stop);
+    const double range = request.correlation_range.value_or(sigmas->correlation_range);
+    auto compared =
+        demDifference(later->grid, *earlier, {std::move(sigmas->sigmas), range, request.common_sigma}, stop);
     if (!compared) return tl::unexpected(compared.error());
     const DemDifference& d = *compared;
     if (d.all.cells == 0) return badData("no cell has a height in both", request.later);
     if (stop.stop_requested()) return cancelled();
-    DifferenceOutcome outcome{request, later->crs.unit.symbol, d.all, d.significant, d.raised, d.lowered, {}};
+    DifferenceOutcome outcome{
+        request, later->crs.unit.symbol, d.all, d.significant, d.raised, d.lowered, range, {}};
     outcome.files = {request.output, besideOutput(request, "_significance.tif"),
                      besideOutput(request, "_volumes.csv")};
     progress.report(0.7, "writing");
@@ -138,7 +140,7 @@ std::string toJson(const DifferenceOutcome& o) {
                                     {"later", r.later.string()},
                                     {"unit", o.unit},
                                     {"sigma", r.sigma},
-                                    {"correlation_range", r.correlation_range},
+                                    {"correlation_range", o.correlation_range},
                                     {"common_sigma", r.common_sigma},
                                     {"cells", o.all.cells},
                                     {"cells_raised", o.raised},

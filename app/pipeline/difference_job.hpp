@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -18,9 +19,10 @@ struct DifferenceRequest {
     std::filesystem::path output = "difference.tif";
     std::filesystem::path earlier_uncertainty;  ///< raster of one sigma; empty: `sigma`
     std::filesystem::path later_uncertainty;
-    double sigma = 0.0;              ///< of one DEM's height where no raster tells it
-    double correlation_range = 0.0;  ///< of height errors from cell to cell
-    double common_sigma = 0.0;       ///< of an error of the change that all cells share
+    double sigma = 0.0;  ///< of one DEM's height where no raster tells it
+    /// Of height errors from cell to cell; nothing: what the rasters of sigmas tell, and 0 where none does.
+    std::optional<double> correlation_range;
+    double common_sigma = 0.0;  ///< of an error of the change that all cells share
 };
 
 struct DifferenceOutcome {
@@ -30,6 +32,7 @@ struct DifferenceOutcome {
     VolumeResult significant;  ///< cells that changed beyond 1.96 sigma alone
     std::size_t raised = 0;
     std::size_t lowered = 0;
+    double correlation_range = 0.0;  ///< that was used
     std::vector<std::filesystem::path> files;
 };
 

@@ -17,30 +17,7 @@ namespace fs = std::filesystem;
 constexpr double kShareOfMemory = 0.9;
 constexpr std::size_t kCellsBetweenStops = std::size_t{1} << 20U;
 
-Result<void> addVariance(const SigmaSource& source, const DemFile& dem, const ElevationGrid& difference,
-                         std::vector<float>& variances, const std::stop_token& stop) {
-    if (source.raster.empty()) {
-        for (std::size_t cell = 0; cell < variances.size(); ++cell) {
-            if (cell % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
-            variances[cell] += static_cast<float>(source.value * source.value);
-        }
-        return {};
-    }
-    const auto sigmas = readAlike(source.raster, dem, stop);
-    if (!sigmas) return tl::unexpected(sigmas.error());
-    for (std::size_t cell = 0; cell < variances.size(); ++cell) {
-        if (cell % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
-        if (std::isnan(difference.heights_m[cell])) continue;
-        const float own = sigmas->heights_m[cell];
-        if (!(own >= 0.0F)) return badData("a cell with a height has no sigma", source.raster);
-        variances[cell] += own * own;
-    }
-    return {};
-}
-
-}  // namespace
-
-Result<ElevationGrid> readAlike(const fs::path& file, const DemFile& dem, const std::stop_token& stop) {
+Result<DemFile> readOnCellsOf(const fs::path& file, const DemFile& dem, const std::stop_token& stop) {
     auto other = readDem(file, stop);
     if (!other) return tl::unexpected(other.error());
     if (!(other->grid.geometry == dem.grid.geometry)) {
@@ -50,24 +27,56 @@ Result<ElevationGrid> readAlike(const fs::path& file, const DemFile& dem, const 
     if (other->crs.name != dem.crs.name) {
         return badData(fmt::format("the CRS is {}, that of the DEM {}", other->crs.name, dem.crs.name), file);
     }
+    return other;
+}
+
+/// `sum.sigmas` are variances yet.
+Result<void> addVariance(const SigmaSource& source, const DemFile& dem, const ElevationGrid& difference,
+                         CombinedSigmas& sum, const std::stop_token& stop) {
+    if (source.raster.empty()) {
+        for (std::size_t cell = 0; cell < sum.sigmas.size(); ++cell) {
+            if (cell % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
+            sum.sigmas[cell] += static_cast<float>(source.value * source.value);
+        }
+        return {};
+    }
+    const auto file = readOnCellsOf(source.raster, dem, stop);
+    if (!file) return tl::unexpected(file.error());
+    sum.correlation_range = std::max(sum.correlation_range, file->correlation_range);
+    for (std::size_t cell = 0; cell < sum.sigmas.size(); ++cell) {
+        if (cell % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
+        if (std::isnan(difference.heights_m[cell])) continue;
+        const float own = file->grid.heights_m[cell];
+        if (!(own >= 0.0F)) return badData("a cell with a height has no sigma", source.raster);
+        sum.sigmas[cell] += own * own;
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<ElevationGrid> readAlike(const fs::path& file, const DemFile& dem, const std::stop_token& stop) {
+    auto other = readOnCellsOf(file, dem, stop);
+    if (!other) return tl::unexpected(other.error());
     return std::move(other->grid);
 }
 
-Result<std::vector<float>> combinedSigmas(const std::vector<SigmaSource>& sources, const DemFile& dem,
-                                          const ElevationGrid& difference, const std::stop_token& stop) {
+Result<CombinedSigmas> combinedSigmas(const std::vector<SigmaSource>& sources, const DemFile& dem,
+                                      const ElevationGrid& difference, const std::stop_token& stop) {
+    CombinedSigmas combined;
     const bool one_for_all = std::none_of(sources.begin(), sources.end(),
                                           [](const SigmaSource& source) { return !source.raster.empty(); });
-    std::vector<float> variances(one_for_all ? 1 : difference.heights_m.size(), 0.0F);
+    combined.sigmas.assign(one_for_all ? 1 : difference.heights_m.size(), 0.0F);
     for (const SigmaSource& source : sources) {
-        if (auto done = addVariance(source, dem, difference, variances, stop); !done) {
+        if (auto done = addVariance(source, dem, difference, combined, stop); !done) {
             return tl::unexpected(done.error());
         }
     }
-    for (std::size_t cell = 0; cell < variances.size(); ++cell) {
+    for (std::size_t cell = 0; cell < combined.sigmas.size(); ++cell) {
         if (cell % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
-        variances[cell] = std::sqrt(variances[cell]);
+        combined.sigmas[cell] = std::sqrt(combined.sigmas[cell]);
     }
-    return variances;
+    return combined;
 }
 
 DemDescription describeDerived(const DemFile& dem, const std::string& title, const std::string& quantity,

@@ -24,11 +24,15 @@ struct SigmaSource {
     std::filesystem::path raster;
     double value = 0.0;
 };
-/// Root of the summed variances of surfaces on the DEM's cells, for each cell; one for all cells where no
-/// raster tells them. Errors: BadData for a cell with a difference that has no sigma; Cancelled.
-[[nodiscard]] Result<std::vector<float>> combinedSigmas(const std::vector<SigmaSource>& sources,
-                                                        const DemFile& dem, const ElevationGrid& difference,
-                                                        const std::stop_token& stop);
+struct CombinedSigmas {
+    /// Root of the summed variances, for each cell; one for all cells where no raster tells them.
+    std::vector<float> sigmas;
+    double correlation_range = 0.0;  ///< the largest that a raster tells; 0 where none does
+};
+/// Of surfaces on the DEM's cells. Errors: BadData for a cell with a difference that has no sigma; Cancelled.
+[[nodiscard]] Result<CombinedSigmas> combinedSigmas(const std::vector<SigmaSource>& sources,
+                                                    const DemFile& dem, const ElevationGrid& difference,
+                                                    const std::stop_token& stop);
 
 /// Description of a raster that was made from a DEM.
 [[nodiscard]] DemDescription describeDerived(const DemFile& dem, const std::string& title,

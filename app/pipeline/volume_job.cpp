@@ -20,7 +20,7 @@ Result<void> checkRequest(const VolumeRequest& r) {
     if (r.against.empty() && !r.against_uncertainty.empty()) {
         return usageError("a plane has no uncertainty", "leave out --against-uncertainty");
     }
-    for (const double value : {r.sigma, r.correlation_range, r.common_sigma}) {
+    for (const double value : {r.sigma, r.correlation_range.value_or(0.0), r.common_sigma}) {
         if (!(value >= 0.0) || !std::isfinite(value))
             return usageError("sigmas and ranges may not be below zero");
     }
@@ -57,13 +57,13 @@ Result<VolumeOutcome> measureVolume(const VolumeRequest& request, Progress& prog
     if (!request.plane) sources.push_back({request.against_uncertainty, request.sigma});
     auto sigmas = combinedSigmas(sources, *dem, difference, stop);
     if (!sigmas) return tl::unexpected(sigmas.error());
-    errors.sigmas_m = std::move(*sigmas);
-    errors.correlation_range_m = request.correlation_range;
+    errors.sigmas_m = std::move(sigmas->sigmas);
+    errors.correlation_range_m = request.correlation_range.value_or(sigmas->correlation_range);
     errors.common_sigma_m = request.common_sigma;
     progress.report(0.6, "summing");
     const auto volume = volumeOf(difference, errors, stop);
     if (!volume) return tl::unexpected(volume.error());
-    VolumeOutcome outcome{request, dem->crs.unit.symbol, *volume, cells_in_one};
+    VolumeOutcome outcome{request, dem->crs.unit.symbol, *volume, errors.correlation_range_m, cells_in_one};
     if (outcome.volume.cells == 0) {
         return badData(request.plane ? "no cell has a height" : "no cell has a height in both", request.dem);
     }
@@ -86,6 +86,14 @@ std::string toText(const VolumeOutcome& outcome) {
         text +=
             fmt::format("Note: {} cells with a height in one DEM only are left out\n", outcome.cells_in_one);
     }
+    if (outcome.correlation_range > 0.0) {
+        text += fmt::format("Errors  of heights hang together over {:.3g} {}{}\n", outcome.correlation_range,
+                            u, outcome.request.correlation_range ? "" : ", as the uncertainty says");
+    } else if (v.net_sigma_m3 > 0.0) {
+        text +=
+            "Note: each cell counts as independent; --correlation-range says over which distance errors "
+            "hang together\n";
+    }
     if (v.net_sigma_m3 == 0.0) {
         text +=
             "Note: no uncertainty was given; --uncertainty or --sigma makes the standard errors mean "
@@ -105,7 +113,7 @@ std::string toJson(const VolumeOutcome& outcome) {
                                     {"dem", r.dem.string()},
                                     {"unit", outcome.unit},
                                     {"sigma", r.sigma},
-                                    {"correlation_range", r.correlation_range},
+                                    {"correlation_range", outcome.correlation_range},
                                     {"common_sigma", r.common_sigma},
                                     {"above", part(v.above)},
                                     {"below", part(v.below)},

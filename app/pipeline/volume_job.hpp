@@ -19,15 +19,17 @@ struct VolumeRequest {
     std::filesystem::path uncertainty;          ///< raster of one sigma for the DEM; empty: `sigma`
     std::filesystem::path against_uncertainty;  ///< and for the other
     double sigma = 0.0;                         ///< of a cell's height where no raster tells it
-    double correlation_range = 0.0;             ///< of height errors from cell to cell
-    double common_sigma = 0.0;                  ///< of an error that all cells share
+    /// Of height errors from cell to cell; nothing: what the rasters of sigmas tell, and 0 where none does.
+    std::optional<double> correlation_range;
+    double common_sigma = 0.0;  ///< of an error that all cells share
 };
 
 struct VolumeOutcome {
     VolumeRequest request;
     std::string unit;
     VolumeResult volume;
-    std::size_t cells_in_one = 0;  ///< with a height in one DEM and none in the other: left out
+    double correlation_range = 0.0;  ///< that was used
+    std::size_t cells_in_one = 0;    ///< with a height in one DEM and none in the other: left out
 };
 
 /// Errors: BadData for rasters that cannot be read, that have other cells or another CRS than the DEM, that

@@ -126,9 +126,16 @@ void addUncertainty(const Products& products, const Survey& survey,
         return values;
     };
     const SurfaceUncertainty& u = *products.uncertainty;
-    writers.emplace_back("dem_uncertainty.tif",
-                         raster(
-                             "Uncertainty, 1 sigma", "m", [&u] { return u.sigmas_m; }, false));
+    const auto describeErrors = [&products, &survey, &u] {
+        DemDescription description = describeDem(products, survey);
+        description.metadata.emplace_back(kCorrelationRange, fmt::format("{:.3f}", u.correlation_range_m));
+        return description;
+    };
+    writers.emplace_back("dem_uncertainty.tif", [&products, &u, stop, describeErrors](const fs::path& f) {
+        DemDescription description = describeErrors();
+        description.quantity = "Uncertainty, 1 sigma";
+        return writeDem({products.dem.geometry, u.sigmas_m}, description, f, stop);
+    });
     writers.emplace_back(
         "dem_density.tif",
         raster(
@@ -137,8 +144,8 @@ void addUncertainty(const Products& products, const Survey& survey,
                                                "Source: 1 measured, 2 interpolated, 3 extrapolated", "class",
                                                [&u, whereKnown] { return whereKnown(u.sources); }, true));
     if (products.used.surface.multiband) {
-        writers.emplace_back("dem_multiband.tif", [&](const fs::path& f) {
-            return writeDemWithUncertainty(products.dem, u.sigmas_m, describeDem(products, survey), f, stop);
+        writers.emplace_back("dem_multiband.tif", [&, describeErrors](const fs::path& f) {
+            return writeDemWithUncertainty(products.dem, u.sigmas_m, describeErrors(), f, stop);
         });
     }
 }

@@ -22,7 +22,8 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 /// Writes a raster in UTM coordinates, 40 x 30 cells of a metre, x and y counted from its south-west corner.
-std::string made(const fs::path& file, const std::function<double(double, double)>& value) {
+std::string made(const fs::path& file, const std::function<double(double, double)>& value,
+                 const std::vector<std::pair<std::string, std::string>>& metadata = {}) {
     const auto crs = describeCrs("EPSG:32649");
     EXPECT_TRUE(crs);
     ElevationGrid grid{{745600.0, 2565730.0, 1.0, 40, 30}, {}};
@@ -32,8 +33,13 @@ std::string made(const fs::path& file, const std::function<double(double, double
                 value(static_cast<double>(column) + 0.5, 29.5 - static_cast<double>(row))));
         }
     }
-    const auto written =
-        writeDem(grid, {.crs_wkt2 = crs->wkt2, .vertical_datum = "local", .title = "made"}, file);
+    const auto written = writeDem(grid,
+                                  {.crs_wkt2 = crs->wkt2,
+                                   .vertical_datum = "local",
+                                   .title = "made",
+                                   .software = {},
+                                   .metadata = metadata},
+                                  file);
     EXPECT_TRUE(written) << written.error().text();
     return file.string();
 }
@@ -189,6 +195,41 @@ TEST(ProfileCommand, TellsHeightsRibbonAndMarks) {
     EXPECT_EQ(terrawalk({"profile", dem, "--from", "1,2", "--to", "3,4", "-o", (scratch / "n.csv").string()})
                   .exit_code,
               3);
+}
+
+// What `process` writes into dem_uncertainty.tif is used unless another range is named.
+TEST(VolumeCommand, TakesTheRangeOfErrorsFromTheUncertainty) {
+    const TemporaryFolder scratch;
+    const std::string dem = hill(scratch / "dem.tif");
+    const auto flat = [](double, double) {
+        return 0.1;
+    };
+    const std::string told = made(scratch / "told.tif", flat, {{kCorrelationRange, "10.000"}});
+    const std::string not_told = made(scratch / "not_told.tif", flat);
+    const auto netOf = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"volume", dem, "--plane", "38", "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const auto outcome = terrawalk(arguments);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        const json volume = json::parse(outcome.out);
+        return std::pair{volume.at("net").at("standard_error").get<double>(),
+                         volume.at("correlation_range").get<double>()};
+    };
+    const auto by_file = netOf({"--uncertainty", told});
+    EXPECT_EQ(by_file.second, 10.0);
+    EXPECT_EQ(by_file, netOf({"--uncertainty", not_told, "--correlation-range", "10"}));
+    const auto alone = netOf({"--uncertainty", told, "--correlation-range", "0"});
+    EXPECT_EQ(alone, netOf({"--uncertainty", not_told}));
+    EXPECT_NEAR(alone.first, 0.1 * std::sqrt(1200.0), 1e-4);
+    EXPECT_GT(by_file.first, 5.0 * alone.first);
+    EXPECT_THAT(terrawalk({"volume", dem, "--plane", "38", "--uncertainty", told}).out,
+                HasSubstr("hang together over 10 m, as the uncertainty says"));
+    EXPECT_THAT(terrawalk({"volume", dem, "--plane", "38", "--uncertainty", not_told}).out,
+                HasSubstr("each cell counts as independent"));
+    const auto changed = terrawalk({"diff", dem, dem, "--earlier-uncertainty", told, "--later-uncertainty",
+                                    not_told, "-o", (scratch / "d.tif").string(), "--json"});
+    ASSERT_EQ(changed.exit_code, 0) << changed.err;
+    EXPECT_EQ(json::parse(changed.out).at("correlation_range"), 10.0);
 }
 
 TEST(DiffCommand, TellsChangeFromError) {

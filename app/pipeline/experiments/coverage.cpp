@@ -16,9 +16,6 @@ namespace terrawalk {
 
 namespace {
 
-// Distance over which errors of the DEM hang together: some passes of the walk.
-constexpr double kErrorRange_m = 15.0;
-
 struct Trial : PlannedSurvey {
     Result<DemCoverage> coverage = cancelled();
 };
@@ -39,7 +36,7 @@ void measure(Trial& trial, const std::stop_token& stop) {
         trial.coverage = tl::unexpected(simulated.error());
         return;
     }
-    trial.coverage = measureDemCoverage(*simulated, {}, trial.seed, kErrorRange_m, silent, stop);
+    trial.coverage = measureDemCoverage(*simulated, {}, trial.seed, silent, stop);
 }
 
 }  // namespace
@@ -70,7 +67,8 @@ Result<ExperimentReport> runCoverage(const ExperimentOptions& options, Progress&
                            "within 1.96 sigma",
                            "N",
                            "volume error [m3]",
-                           "volume sigma [m3]"};
+                           "volume sigma [m3]",
+                           "range of errors [m]"};
     report.summary.columns = {"faults",   "marks",  "within 1.96 sigma", "N", "volumes within 1.96 sigma",
                               "volume N", "surveys"};
     for (std::size_t first = 0; first < trials.size(); first += surveys) {
@@ -89,7 +87,7 @@ Result<ExperimentReport> runCoverage(const ExperimentOptions& options, Progress&
             const DemCoverage& c = *trial.coverage;
             report.data.rows.push_back({level, ties, static_cast<double>(trial.seed), c.rms_error_m,
                                         c.mean_sigma_m, withinShare(c.heights), c.heights.mean_square,
-                                        c.volume_error_m3, c.volume_sigma_m3});
+                                        c.volume_error_m3, c.volume_sigma_m3, c.error_range_m});
             dots.points.emplace_back(static_cast<double>(trial.seed), withinShare(c.heights));
             within += withinShare(c.heights);
             square += c.heights.mean_square;
@@ -117,7 +115,8 @@ Result<ExperimentReport> runCoverage(const ExperimentOptions& options, Progress&
             first_seed, first_seed + surveys - 1),
         "N: mean of squared error over predicted variance, 1 for honest sigmas; 0.95 should lie within 1.96 "
         "sigma",
-        fmt::format("volume: above the DEM's mean height; errors hang together over {:g} m", kErrorRange_m),
+        "volume: above the DEM's mean height; errors hang together over the range that is predicted with "
+        "them",
     };
     report.notes.insert(report.notes.begin(), notes.begin(), notes.end());
     return report;
