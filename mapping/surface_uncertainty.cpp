@@ -1,6 +1,5 @@
 #include "mapping/surface_uncertainty.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
