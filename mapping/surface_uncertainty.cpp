@@ -335,10 +335,12 @@ struct ErrorSums {
 
 /// Range of the spherical correlogram, whose integral over the plane is pi range^2 / 5, that gives the mean
 /// of all heights the variance that its parts give it, each with an integral of its own.
-/// @param point_area_m2  that each point stands for
-double correlationRange(const ErrorSums& sums, double point_area_m2) {
-    const double track_m2 = 2.0 * kPi * squared(kTrackMemory_m) * kOtherPassCorrelation;
-    const double interpolation_m2 = kPointsInOneError * point_area_m2;
+double correlationRange(const ErrorSums& sums, double cell_area_m2, std::size_t points) {
+    const double near_m2 = 2.0 * kPi * squared(kTrackMemory_m) * kOtherPassCorrelation;
+    const double track_m2 =
+        kEverywhereCorrelation * sums.cells * cell_area_m2 + (1.0 - kEverywhereCorrelation) * near_m2;
+    const double interpolation_m2 =
+        kPointsInOneError * sums.cells * cell_area_m2 / static_cast<double>(points);
     // An error in plan lifts what rises one way and lowers what falls: the mean slope alone has no opposite.
     const double one_way = sums.steepness2 > 0.0
                                ? std::min(1.0, sums.gradient.squaredNorm() / sums.cells / sums.steepness2)
@@ -394,7 +396,8 @@ TrackSigma trackSigmaOf(const GroundPoint& point, const Trajectory& trajectory) 
 
 double trackCorrelation(const TrackSigma& a, const TrackSigma& b, double apart_m) {
     const bool one_pass = a.run == b.run && std::abs(a.time_s - b.time_s) < kOnePass_s;
-    return (one_pass ? 1.0 : kOtherPassCorrelation) * std::exp(-apart_m / kTrackMemory_m);
+    const double near = (one_pass ? 1.0 : kOtherPassCorrelation) * std::exp(-apart_m / kTrackMemory_m);
+    return kEverywhereCorrelation + (1.0 - kEverywhereCorrelation) * near;
 }
 
 double InterpolationErrorModel::variance_m2(double distance_m, double relief_m) const {
@@ -523,8 +526,7 @@ Result<SurfaceUncertainty> surfaceUncertainty(const ElevationGrid& heights,
         });
         ErrorSums sums;
         for (const ErrorSums& row : row_sums) sums.add(row);
-        const double area_m2 = sums.cells * squared(g.cell_m);
-        result.correlation_range_m = correlationRange(sums, area_m2 / static_cast<double>(points_m.size()));
+        result.correlation_range_m = correlationRange(sums, squared(g.cell_m), points_m.size());
     } catch (const std::bad_alloc&) {
         return systemError("not enough memory for the uncertainty of the grid", {});
     }

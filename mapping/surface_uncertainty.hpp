@@ -30,10 +30,13 @@ struct TrackSigma {
 [[nodiscard]] TrackSigma trackSigmaOf(const GroundPoint& point, const Trajectory& trajectory);
 
 inline constexpr double kOtherPassCorrelation = 0.6;
+inline constexpr double kEverywhereCorrelation = 0.05;
 
 /// Correlation of the track's errors at two points. Along one pass it falls to 1/e in 8 m; another pass,
-/// which crossovers bind to it, shares 0.6 of that. Both were measured on simulated surveys (seeds 201 to
-/// 204, three levels of faults).
+/// which crossovers bind to it, shares 0.6 of that; and a twentieth of the variance, from the marks and the
+/// range finder, is common to all of the survey. Measured on simulated surveys: the first two from errors of
+/// points (seeds 201 to 204, three levels of faults), the last from volumes (seeds 301 to 304 and 901 to 908,
+/// too).
 [[nodiscard]] double trackCorrelation(const TrackSigma& a, const TrackSigma& b, double apart_m);
 
 /// By how much heights foretold from the points around are off, learnt from points that were left out:

@@ -283,9 +283,13 @@ TEST(SurfaceUncertainty, KnowsOverWhatDistanceErrorsHangTogether) {
                                   {model, {}}, silent, {})
             ->correlation_range_m;
     };
-    // The integral of the spherical correlogram, pi R^2 / 5, is that of 0.6 exp(-d / 8), or ten square
-    // metres.
-    EXPECT_NEAR(rangeOf(0.1, 0.0), 8.0 * std::sqrt(10.0 * kOtherPassCorrelation), 1e-6);
+    // The integral of the spherical correlogram, pi R^2 / 5, is that of what passes share, 0.6 exp(-d / 8),
+    // with the common part over the whole area; or ten square metres.
+    double area_m2 = 0.0;
+    for (const float height : dem.heights_m) area_m2 += std::isnan(height) ? 0.0 : 0.25;
+    const double near_m2 = 2.0 * kPi * 64.0 * kOtherPassCorrelation;
+    const double track_m2 = kEverywhereCorrelation * area_m2 + (1.0 - kEverywhereCorrelation) * near_m2;
+    EXPECT_NEAR(rangeOf(0.1, 0.0), std::sqrt(5.0 * track_m2 / kPi), 1e-6);
     EXPECT_NEAR(rangeOf(0.0, 0.01), std::sqrt(50.0 / kPi), 0.1);
     const double both = rangeOf(0.1, 0.01);
     EXPECT_GT(both, rangeOf(0.0, 0.01));
