@@ -19,14 +19,20 @@ constexpr double kPadding_px = 8.0;
 constexpr double kRampHeight_px = 96.0;
 constexpr double kRampWidth_px = 16.0;
 
+QRectF scaleBarBox(const QFontMetricsF& metrics, const MapTransform& transform) {
+    const double length_m = roundLengthBelow(140.0 / transform.pixels_per_m);
+    const double height = metrics.height() + 8 + 2 * kPadding_px - 2;
+    const double width = length_m * transform.pixels_per_m +
+                         metrics.horizontalAdvance(shortLength(length_m)) / 2 + 12 + 2 * kPadding_px;
+    return {kMargin_px, transform.size_px.height() - kMargin_px - height, width, height};
+}
+
 void drawScaleBar(QPainter& painter, const MapTransform& transform, const QPalette& palette) {
     const double length_m = roundLengthBelow(140.0 / transform.pixels_per_m);
     const double length_px = length_m * transform.pixels_per_m;
     const QFontMetricsF metrics(painter.font());
-    const double height = metrics.height() + 8 + 2 * kPadding_px - 2;
     const QString label = shortLength(length_m);
-    const double width = length_px + metrics.horizontalAdvance(label) / 2 + 12 + 2 * kPadding_px;
-    const QRectF box(kMargin_px, transform.size_px.height() - kMargin_px - height, width, height);
+    const QRectF box = scaleBarBox(metrics, transform);
     drawPanel(painter, box, palette);
     const double left = box.left() + kPadding_px + 4, top = box.bottom() - kPadding_px - 6;
     painter.setPen(QPen(palette.color(QPalette::Text), 1.0));
@@ -39,9 +45,16 @@ void drawScaleBar(QPainter& painter, const MapTransform& transform, const QPalet
     painter.drawText(QPointF(left + length_px - metrics.horizontalAdvance(label) / 2, base), label);
 }
 
-/// Returns its lower end.
-double drawNorthArrow(QPainter& painter, const MapTransform& transform, const QPalette& palette) {
-    const QRectF box(transform.size_px.width() - kMargin_px - 40, kMargin_px, 40, 56);
+QRectF northArrowBox(const MapTransform& transform) {
+    return {transform.size_px.width() - kMargin_px - 40, kMargin_px, 40, 56};
+}
+
+QPointF legendCorner(const MapTransform& transform) {
+    return {transform.size_px.width() - kMargin_px, northArrowBox(transform).bottom() + 8};
+}
+
+void drawNorthArrow(QPainter& painter, const MapTransform& transform, const QPalette& palette) {
+    const QRectF box = northArrowBox(transform);
     drawPanel(painter, box, palette);
     const QPointF tip(box.center().x(), box.top() + 7), foot(box.center().x(), tip.y() + 18);
     painter.setPen(QPen(palette.color(QPalette::Text), 1.0));
@@ -50,7 +63,6 @@ double drawNorthArrow(QPainter& painter, const MapTransform& transform, const QP
     painter.setBrush(palette.color(QPalette::Base));
     painter.drawPolygon(QPolygonF({tip, foot + QPointF(7, 6), foot}));
     painter.drawText(QRectF(box.left(), box.bottom() - 24, box.width(), 20), Qt::AlignCenter, "N");
-    return box.bottom();
 }
 
 struct LegendPart {
@@ -209,23 +221,43 @@ void drawLegend(QPainter& painter, const LegendPart& part, const QRectF& box, co
     }
 }
 
-void drawVectorNote(QPainter& painter, const MapScene& scene, const MapTransform& transform,
-                    const QPalette& palette) {
+/// How much longer errors are drawn than they are; nothing where none is.
+QString vectorNote(const MapScene& scene, const MapTransform& transform) {
     const double scale = vectorScale(scene, transform);
-    if (scale <= 0.0 || !scene.shown.marks) return;
-    const QString note = QCoreApplication::translate("MapFurniture", "errors at marks %1 times as long")
-                             .arg(QString::number(scale, 'g', 3));
-    const QFontMetricsF metrics(painter.font());
+    if (scale <= 0.0 || !scene.shown.marks) return {};
+    return QCoreApplication::translate("MapFurniture", "errors at marks %1 times as long")
+        .arg(QString::number(scale, 'g', 3));
+}
+
+QRectF vectorNoteBox(const QFontMetricsF& metrics, const QString& note, const MapTransform& transform) {
     const double width = metrics.horizontalAdvance(note) + 24 + 3 * kPadding_px;
     const double height = metrics.height() + kPadding_px;
-    const QRectF box(transform.size_px.width() - kMargin_px - width,
-                     transform.size_px.height() - kMargin_px - height, width, height);
+    return {transform.size_px.width() - kMargin_px - width, transform.size_px.height() - kMargin_px - height,
+            width, height};
+}
+
+void drawVectorNote(QPainter& painter, const QString& note, const MapTransform& transform,
+                    const QPalette& palette) {
+    if (note.isEmpty()) return;
+    const QRectF box = vectorNoteBox(QFontMetricsF(painter.font()), note, transform);
     drawPanel(painter, box, palette);
     const double y = box.center().y();
     painter.setPen(QPen(QColor(200, 30, 60), 2.0));
     painter.drawLine(QPointF(box.left() + kPadding_px, y), QPointF(box.left() + kPadding_px + 24, y));
     painter.setPen(palette.color(QPalette::Text));
     painter.drawText(box.adjusted(24 + 2 * kPadding_px, 0, 0, 0), Qt::AlignVCenter | Qt::AlignLeft, note);
+}
+
+std::vector<QRectF> boxesOf(const std::vector<LegendPart>& parts, const QFontMetricsF& metrics,
+                            QPointF upper_right) {
+    std::vector<QRectF> boxes;
+    double top = upper_right.y();
+    for (const LegendPart& part : parts) {
+        const double width = widthOf(part, metrics), height = heightOf(part, metrics.height());
+        boxes.emplace_back(upper_right.x() - width, top, width, height);
+        top += height + 8;
+    }
+    return boxes;
 }
 
 }  // namespace
@@ -239,24 +271,33 @@ void drawPanel(QPainter& painter, const QRectF& box, const QPalette& palette) {
     painter.drawRoundedRect(box.adjusted(0.5, 0.5, -0.5, -0.5), 4, 4);
 }
 
-double drawLegends(QPainter& painter, const MapScene& scene, QPointF upper_right, const QPalette& palette) {
-    const QFontMetricsF metrics(painter.font());
-    double top = upper_right.y();
-    for (const LegendPart& part : legendParts(scene)) {
-        const double width = widthOf(part, metrics), height = heightOf(part, metrics.height());
-        drawLegend(painter, part, {upper_right.x() - width, top, width, height}, palette);
-        top += height + 8;
-    }
-    return top;
+std::vector<QRectF> legendBoxes(const QFontMetricsF& metrics, const MapScene& scene, QPointF upper_right) {
+    return boxesOf(legendParts(scene), metrics, upper_right);
+}
+
+void drawLegends(QPainter& painter, const MapScene& scene, QPointF upper_right, const QPalette& palette) {
+    const std::vector<LegendPart> parts = legendParts(scene);
+    const std::vector<QRectF> boxes = boxesOf(parts, QFontMetricsF(painter.font()), upper_right);
+    for (std::size_t i = 0; i < parts.size(); ++i) drawLegend(painter, parts[i], boxes[i], palette);
+}
+
+std::vector<QRectF> furnitureBoxes(const QFontMetricsF& metrics, const MapScene& scene,
+                                   const MapTransform& transform) {
+    std::vector<QRectF> boxes = legendBoxes(metrics, scene, legendCorner(transform));
+    boxes.push_back(scaleBarBox(metrics, transform));
+    boxes.push_back(northArrowBox(transform));
+    if (const QString note = vectorNote(scene, transform); !note.isEmpty())
+        boxes.push_back(vectorNoteBox(metrics, note, transform));
+    return boxes;
 }
 
 void drawFurniture(QPainter& painter, const MapScene& scene, const MapTransform& transform,
                    const QPalette& palette) {
     painter.setRenderHint(QPainter::Antialiasing);
     drawScaleBar(painter, transform, palette);
-    const double top = drawNorthArrow(painter, transform, palette) + 8;
-    drawLegends(painter, scene, {transform.size_px.width() - kMargin_px, top}, palette);
-    drawVectorNote(painter, scene, transform, palette);
+    drawNorthArrow(painter, transform, palette);
+    drawLegends(painter, scene, legendCorner(transform), palette);
+    drawVectorNote(painter, vectorNote(scene, transform), transform, palette);
 }
 
 }  // namespace terrawalk::gui

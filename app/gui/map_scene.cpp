@@ -16,8 +16,8 @@ namespace terrawalk::gui {
 
 namespace {
 
-constexpr double kHalo_px = 2.5;
 constexpr std::size_t kMostDots = 20'000;
+constexpr double kPlaceArm_px = 14.0;
 
 QString text(const std::string& utf8) {
     return QString::fromStdString(utf8);
@@ -126,16 +126,6 @@ void drawVector(QPainter& painter, QPointF from, QPointF to) {
 }  // namespace
 
 // Glyphs drawn about it are kept by the painter, an outline would be made anew for each label.
-void drawLabel(QPainter& painter, QPointF at, const QString& label, const QPalette& palette) {
-    constexpr double r = kHalo_px / 2.0, d = 0.7 * r;
-    constexpr std::array<QPointF, 8> kAround{QPointF(r, 0), QPointF(-r, 0), QPointF(0, r),  QPointF(0, -r),
-                                             QPointF(d, d), QPointF(d, -d), QPointF(-d, d), QPointF(-d, -d)};
-    painter.setPen(palette.color(QPalette::Base));
-    for (const QPointF& off : kAround) painter.drawText(at + off, label);
-    painter.setPen(palette.color(QPalette::Text));
-    painter.drawText(at, label);
-}
-
 QRectF MapScene::extent_m() const {
     QRectF extent;
     const auto add = [&](double x, double y) {
@@ -395,10 +385,9 @@ void drawMarkSymbol(QPainter& painter, QPointF at, const ControlMark& mark, bool
     }
 }
 
-namespace {
-
 std::vector<MarkName> markNames(const MapScene& scene, const MapTransform& transform) {
     std::vector<MarkName> names;
+    if (!scene.survey || !scene.shown.marks) return names;
     for (const PlacedMark& placed : scene.survey->marks) {
         const QString name = text(placed.mark.name);
         if (scene.shown.hidden_marks.contains(name)) continue;
@@ -408,10 +397,8 @@ std::vector<MarkName> markNames(const MapScene& scene, const MapTransform& trans
     return names;
 }
 
-}  // namespace
-
 void drawMarks(QPainter& painter, const MapScene& scene, const MapTransform& transform,
-               const QPalette& palette) {
+               const MarkNames& names, const QPalette& palette) {
     if (!scene.survey || !scene.shown.marks) return;
     painter.setRenderHint(QPainter::Antialiasing);
     const double scale = vectorScale(scene, transform);
@@ -426,59 +413,7 @@ void drawMarks(QPainter& painter, const MapScene& scene, const MapTransform& tra
         }
         drawMarkSymbol(painter, at, placed.mark, scene.highlighted == name, kMarkInk);
     }
-    drawMarkNames(painter, markNames(scene, transform), palette);
-}
-
-namespace {
-
-QRectF symbolBox(const MarkName& mark) {
-    constexpr double kSide_px = 16.0;
-    return {mark.at.x() - 0.5 * kSide_px, mark.at.y() - 0.5 * kSide_px, kSide_px, kSide_px};
-}
-
-/// Where a name may start, from the middle of its symbol, the best place first.
-std::array<QPointF, 4> namePlaces(const QFontMetricsF& metrics, double width_px) {
-    constexpr double kOff_px = 9.0;
-    const double middle = 0.4 * metrics.ascent();
-    return {QPointF(kOff_px, middle), QPointF(-kOff_px - width_px, middle),
-            QPointF(-0.5 * width_px, -kOff_px - metrics.descent()),
-            QPointF(-0.5 * width_px, kOff_px + metrics.ascent())};
-}
-
-}  // namespace
-
-std::vector<PlacedName> placeMarkNames(const QFontMetricsF& metrics, const std::vector<MarkName>& marks) {
-    std::vector<QRectF> taken;
-    for (const MarkName& mark : marks) {
-        taken.push_back(symbolBox(mark));
-        if (mark.pin_px > 0.0) taken.emplace_back(mark.at.x() - 2.0, mark.at.y(), 4.0, mark.pin_px);
-    }
-    std::vector<PlacedName> placed;
-    for (const MarkName& mark : marks) {
-        const double width_px = metrics.horizontalAdvance(mark.name);
-        const auto boxAt = [&](QPointF place) {
-            return QRectF(mark.at + place - QPointF(0, metrics.ascent()), QSizeF(width_px, metrics.height()));
-        };
-        const auto free = [&](QPointF place) {
-            return std::none_of(taken.begin(), taken.end(),
-                                [box = boxAt(place)](const QRectF& other) { return other.intersects(box); });
-        };
-        const auto places = namePlaces(metrics, width_px);
-        const auto* place = std::find_if(places.begin(), places.end(), free);
-        if (place == places.end() && !mark.highlighted) continue;
-        if (place == places.end()) place = places.begin();
-        taken.push_back(boxAt(*place));
-        placed.push_back({&mark, mark.at + *place, taken.back()});
-    }
-    return placed;
-}
-
-void drawMarkNames(QPainter& painter, const std::vector<MarkName>& marks, const QPalette& palette) {
-    for (const PlacedName& name : placeMarkNames(QFontMetricsF(painter.font()), marks)) {
-        painter.setOpacity(name.mark->opacity);
-        drawLabel(painter, name.start, name.mark->name, palette);
-    }
-    painter.setOpacity(1.0);
+    drawMarkNames(painter, names, palette);
 }
 
 void drawTerraceEdges(QPainter& painter, const MapScene& scene, const MapTransform& transform) {
@@ -498,12 +433,10 @@ void drawTerraceEdges(QPainter& painter, const MapScene& scene, const MapTransfo
 
 namespace {
 
-QList<QRectF> markBoxes(const QPainter& painter, const MapScene& scene, const MapTransform& transform) {
+QList<QRectF> boxesOf(const MarkNames& names) {
     QList<QRectF> boxes;
-    if (!scene.survey || !scene.shown.marks) return boxes;
-    const std::vector<MarkName> marks = markNames(scene, transform);
-    for (const MarkName& mark : marks) boxes << symbolBox(mark);
-    for (const PlacedName& name : placeMarkNames(QFontMetricsF(painter.font()), marks)) boxes << name.box;
+    for (const MarkName& mark : names.marks) boxes << symbolBox(mark);
+    for (const PlacedName& place : names.places) boxes << place.box;
     return boxes;
 }
 
@@ -526,13 +459,13 @@ std::optional<QRectF> freePlace(const QPolygonF& line, const QRectF& seen, const
 }  // namespace
 
 void drawContours(QPainter& painter, const MapScene& scene, const MapTransform& transform,
-                  const QPalette& palette) {
+                  const MarkNames& names, const QPalette& palette) {
     if (!scene.contours || !scene.shown.contours) return;
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setBrush(Qt::NoBrush);
     const QRectF seen = QRectF(QPointF(0, 0), transform.size_px).adjusted(-8, -8, 8, 8);
     // Marks and their names are drawn over this.
-    QList<QRectF> taken = markBoxes(painter, scene, transform);
+    QList<QRectF> taken = boxesOf(names);
     for (const Contour& contour : *scene.contours) {
         QPolygonF line;
         for (const Eigen::Vector2d& v : contour.vertices) {
@@ -595,6 +528,10 @@ void drawCross(QPainter& painter, QPointF at) {
     }
 }
 
+QRectF placeBox(QPointF at) {
+    return {at.x() - kPlaceArm_px, at.y() - kPlaceArm_px, 2.0 * kPlaceArm_px, 2.0 * kPlaceArm_px};
+}
+
 void drawEdits(QPainter& painter, const MapScene& scene, const MapTransform& transform,
                const QPalette& palette) {
     painter.setRenderHint(QPainter::Antialiasing);
@@ -629,10 +566,8 @@ void drawEdits(QPainter& painter, const MapScene& scene, const MapTransform& tra
             painter.setPen(QPen(colour, width));
             painter.setBrush(Qt::NoBrush);
             painter.drawEllipse(at, 9.0, 9.0);
-            painter.drawLine(at - QPointF(14, 0), at - QPointF(5, 0));
-            painter.drawLine(at + QPointF(5, 0), at + QPointF(14, 0));
-            painter.drawLine(at - QPointF(0, 14), at - QPointF(0, 5));
-            painter.drawLine(at + QPointF(0, 5), at + QPointF(0, 14));
+            for (const QPointF& arm : {QPointF(1, 0), QPointF(-1, 0), QPointF(0, 1), QPointF(0, -1)})
+                painter.drawLine(at + arm * 5.0, at + arm * kPlaceArm_px);
         }
     }
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/gui/map_transform.hpp"
+#include "app/gui/mark_names.hpp"
 #include "app/gui/raster_picture.hpp"
 #include "app/gui/selection.hpp"
 #include "app/gui/view_state.hpp"
@@ -84,8 +85,6 @@ struct TrackHit {
 inline const QColor kEdgeInk(70, 35, 20);  ///< of terraces
 inline const QColor kExcludedInk(110, 110, 110);
 
-/// Text with an edge that sets it off from any ground.
-void drawLabel(QPainter& painter, QPointF at, const QString& label, const QPalette& palette);
 void drawPoints(QPainter& painter, const MapScene& scene, const MapTransform& transform);
 void drawTracks(QPainter& painter, const MapScene& scene, const MapTransform& transform);
 /// Excluded stretches of tracks, and the selected one.
@@ -94,31 +93,19 @@ inline const QColor kMarkInk(20, 24, 28);
 /// Square, triangle or dot: zero mark, control or check.
 void drawMarkSymbol(QPainter& painter, QPointF at, const ControlMark& mark, bool highlighted,
                     const QColor& colour);
-/// A mark's symbol on the screen, whose name is to stand beside it.
-struct MarkName {
-    QPointF at;
-    QString name;
-    bool highlighted = false;  ///< shown even where it lies on something
-    double pin_px = 0.0;       ///< below the symbol
-    double opacity = 1.0;
-};
-struct PlacedName {
-    const MarkName* mark = nullptr;
-    QPointF start;  ///< of the base line
-    QRectF box;
-};
-/// Names right, left, above or below their symbols, none on another, on a symbol or on a pin; those that find
-/// no place are left out. They point into `marks`.
-[[nodiscard]] std::vector<PlacedName> placeMarkNames(const QFontMetricsF& metrics,
-                                                     const std::vector<MarkName>& marks);
-void drawMarkNames(QPainter& painter, const std::vector<MarkName>& marks, const QPalette& palette);
+/// Symbols of the shown marks on the screen; none where marks are not shown.
+[[nodiscard]] std::vector<MarkName> markNames(const MapScene& scene, const MapTransform& transform);
+/// @param names  of this frame, see placeMarkNames()
 void drawMarks(QPainter& painter, const MapScene& scene, const MapTransform& transform,
-               const QPalette& palette);
+               const MarkNames& names, const QPalette& palette);
 void drawTerraceEdges(QPainter& painter, const MapScene& scene, const MapTransform& transform);
+/// @param names  that labels keep clear of
 void drawContours(QPainter& painter, const MapScene& scene, const MapTransform& transform,
-                  const QPalette& palette);
+                  const MarkNames& names, const QPalette& palette);
 /// Where keys point.
 void drawCross(QPainter& painter, QPointF at);
+/// Of the sign at a place that was asked about.
+[[nodiscard]] QRectF placeBox(QPointF at);
 /// Drawn lines, the sketch, and the place that was asked about.
 void drawEdits(QPainter& painter, const MapScene& scene, const MapTransform& transform,
                const QPalette& palette);

@@ -16,7 +16,8 @@ namespace terrawalk::gui {
 namespace {
 
 // Room for the legend at the right.
-constexpr QMarginsF kFitMargins_px(24.0, 24.0, 128.0, 32.0);
+// Room for legends at the right, scale bar and notes below.
+constexpr QMarginsF kFitMargins_px(24.0, 24.0, 128.0, 64.0);
 constexpr double kKeyPan_px = 64.0;
 constexpr double kKeyStep_px = 8.0;
 constexpr double kKeyZoom = 1.25;
@@ -189,13 +190,21 @@ void MapView::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     painter.fillRect(rect(), palette().color(QPalette::Base));
     if (!scene_.survey) return;
+    const MarkNames names = placedNames();
     if (scene_.raster) drawRaster(painter, *scene_.raster, transform_);
-    paintLines(painter);
+    paintLines(painter, names);
     drawStretches(painter, scene_, transform_);
-    drawMarks(painter, scene_, transform_, palette());
+    drawMarks(painter, scene_, transform_, names, palette());
     drawEdits(painter, scene_, transform_, palette());
     drawFurniture(painter, scene_, transform_, palette());
     if (key_cursor_m_) drawCross(painter, transform_.toScreen(*key_cursor_m_));
+}
+
+MarkNames MapView::placedNames() const {
+    const QFontMetricsF metrics(font());
+    std::vector<QRectF> reserved = furnitureBoxes(metrics, scene_, transform_);
+    if (scene_.place_m) reserved.push_back(placeBox(transform_.toScreen(*scene_.place_m)));
+    return placeMarkNames(metrics, markNames(scene_, transform_), {rect(), std::move(reserved)});
 }
 
 bool MapView::linesCurrent() const {
@@ -204,7 +213,7 @@ bool MapView::linesCurrent() const {
            lines_.image.devicePixelRatio() == devicePixelRatioF();
 }
 
-void MapView::paintLines(QPainter& painter) {
+void MapView::paintLines(QPainter& painter, const MarkNames& names) {
     if (!lines_.image.isNull()) {
         // Until the new one has come, the last picture goes along with the map.
         const MapTransform& then = lines_.transform;
@@ -212,20 +221,20 @@ void MapView::paintLines(QPainter& painter) {
         const QPointF to = transform_.toScreen(then.toMap({then.size_px.width(), then.size_px.height()}));
         painter.drawImage(QRectF(from, to), lines_.image);
     }
-    if (!linesCurrent()) drawLinesBeside();
+    if (!linesCurrent()) drawLinesBeside(names);
 }
 
-void MapView::drawLinesBeside() {
+void MapView::drawLinesBeside(const MarkNames& names) {
     // One at a time; when it has come, the next paint sees whether another is needed.
     if (lines_beside_.running()) return;
-    lines_beside_.start([scene = scene_, transform = transform_, palette = palette(), font = font(),
+    lines_beside_.start([scene = scene_, transform = transform_, names, palette = palette(), font = font(),
                          ratio = devicePixelRatioF()] {
         QImage image((transform.size_px * ratio).toSize(), QImage::Format_ARGB32_Premultiplied);
         image.setDevicePixelRatio(ratio);
         image.fill(Qt::transparent);
         QPainter painter(&image);
         painter.setFont(font);
-        drawContours(painter, scene, transform, palette);
+        drawContours(painter, scene, transform, names, palette);
         drawTerraceEdges(painter, scene, transform);
         drawPoints(painter, scene, transform);
         drawTracks(painter, scene, transform);

@@ -73,8 +73,9 @@ class MapView : public QWidget {
     void colourLayer();
     void makeContours();
     [[nodiscard]] bool linesCurrent() const;
-    void paintLines(QPainter& painter);
-    void drawLinesBeside();
+    [[nodiscard]] MarkNames placedNames() const;
+    void paintLines(QPainter& painter, const MarkNames& names);
+    void drawLinesBeside(const MarkNames& names);
     void followState();
     void followSelection();
     void moveBy(QPointF by_px);

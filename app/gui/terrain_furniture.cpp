@@ -23,9 +23,9 @@ std::optional<QPointF> onScreen(const TerrainFrame& frame, const Eigen::Vector3d
     return QPointF(seen->x(), seen->y());
 }
 
-/// Numbers along one edge of the floor, outside of it, as many as have room.
-void drawEdgeNumbers(QPainter& painter, const TerrainFrame& frame, const QPalette& palette, bool eastings,
-                     const FloorGrid& grid) {
+/// Numbers along one edge of the floor, outside of it, as many as have room. Returns where they stand.
+std::vector<QRectF> drawEdgeNumbers(QPainter& painter, const TerrainFrame& frame, const QPalette& palette,
+                                    bool eastings, const FloorGrid& grid) {
     const Eigen::Vector3d eye = frame.scene->toMap(frame.camera.eye_m(), frame.exaggeration);
     const double floor_m = frame.scene->origin_map_m().z();
     const double middle_x = (grid.west_m + grid.east_m) / 2.0, middle_y = (grid.south_m + grid.north_m) / 2.0;
@@ -57,6 +57,7 @@ void drawEdgeNumbers(QPainter& painter, const TerrainFrame& frame, const QPalett
         taken.push_back(box);
         drawLabel(painter, QPointF(middle.x() - wide / 2.0, middle.y() + high / 2.0 - 1.0), text, palette);
     }
+    return taken;
 }
 
 /// At the corner of the floor that stands farthest to the left, where nothing can hide it.
@@ -128,13 +129,36 @@ void drawCompass(QPainter& painter, const TerrainFrame& frame, QPointF middle, c
     painter.restore();
 }
 
-void drawNote(QPainter& painter, QPointF lower_left, const QString& text, const QPalette& palette) {
-    const QFontMetricsF metrics(painter.font());
-    const QRectF box(lower_left.x(), lower_left.y() - metrics.height() - 8.0,
-                     metrics.horizontalAdvance(text) + 16.0, metrics.height() + 8.0);
+QPointF compassMiddle(const TerrainFrame& frame) {
+    return {frame.camera.viewport_px.x() - kMargin_px - kCompass_px / 2.0, kMargin_px + kCompass_px / 2.0};
+}
+
+QPointF legendCorner(const TerrainFrame& frame) {
+    return {frame.camera.viewport_px.x() - kMargin_px, kMargin_px + kCompass_px + 8.0};
+}
+
+QString noteText(const TerrainFrame& frame) {
+    QString note = exaggerationText(frame.exaggeration);
+    note = note.isEmpty() ? QCoreApplication::translate("TerrainFurniture", "Heights as they are")
+                          : QCoreApplication::translate("TerrainFurniture", "Heights %1").arg(note);
+    if (frame.contour_interval_m > 0.0) {
+        note += QCoreApplication::translate("TerrainFurniture", ", contours every %1")
+                    .arg(shortLength(frame.contour_interval_m));
+    }
+    return note;
+}
+
+QRectF noteBox(const QFontMetricsF& metrics, const TerrainFrame& frame) {
+    const double height = metrics.height() + 8.0;
+    return {kMargin_px, frame.camera.viewport_px.y() - kMargin_px - height,
+            metrics.horizontalAdvance(noteText(frame)) + 16.0, height};
+}
+
+void drawNote(QPainter& painter, const TerrainFrame& frame, const QPalette& palette) {
+    const QRectF box = noteBox(QFontMetricsF(painter.font()), frame);
     drawPanel(painter, box, palette);
     painter.setPen(palette.color(QPalette::Text));
-    painter.drawText(box, Qt::AlignCenter, text);
+    painter.drawText(box, Qt::AlignCenter, noteText(frame));
 }
 
 }  // namespace
@@ -148,15 +172,17 @@ QString exaggerationText(double exaggeration) {
     return QString::fromUtf8("× ") + QString::number(exaggeration, 'g', 3);
 }
 
-void drawAxes(QPainter& painter, const TerrainFrame& frame, const QPalette& palette) {
+std::vector<QRectF> drawAxes(QPainter& painter, const TerrainFrame& frame, const QPalette& palette) {
     painter.setRenderHint(QPainter::Antialiasing);
     const FloorGrid grid = floorGrid(*frame.scene);
-    drawEdgeNumbers(painter, frame, palette, true, grid);
-    drawEdgeNumbers(painter, frame, palette, false, grid);
+    std::vector<QRectF> boxes = drawEdgeNumbers(painter, frame, palette, true, grid);
+    for (const QRectF& box : drawEdgeNumbers(painter, frame, palette, false, grid)) boxes.push_back(box);
     drawHeights(painter, frame, palette, grid);
+    return boxes;
 }
 
-void drawPins(QPainter& painter, const TerrainFrame& frame, const MapScene& map, const QPalette& palette) {
+void drawPins(QPainter& painter, const TerrainFrame& frame, const MapScene& map, std::vector<QRectF> reserved,
+              const QPalette& palette) {
     if (!map.survey) return;
     painter.setRenderHint(QPainter::Antialiasing);
     std::vector<MarkName> names;
@@ -177,7 +203,12 @@ void drawPins(QPainter& painter, const TerrainFrame& frame, const MapScene& map,
         names.push_back({head, name, highlighted, pinHeight(frame), painter.opacity()});
     }
     painter.setOpacity(1.0);
-    drawMarkNames(painter, names, palette);
+    const QFontMetricsF metrics(painter.font());
+    for (const QRectF& box : terrainFurnitureBoxes(metrics, frame, map)) reserved.push_back(box);
+    const Eigen::Vector2d size_px = frame.camera.viewport_px;
+    // Lines that jump about while the ground turns would only distract.
+    const NameRoom room{{0.0, 0.0, size_px.x(), size_px.y()}, std::move(reserved), !frame.moving};
+    drawMarkNames(painter, placeMarkNames(metrics, std::move(names), room), palette);
 }
 
 void drawPick(QPainter& painter, const TerrainFrame& frame, const Eigen::Vector3d& map_m) {
@@ -198,17 +229,19 @@ void drawPick(QPainter& painter, const TerrainFrame& frame, const Eigen::Vector3
 void drawTerrainFurniture(QPainter& painter, const TerrainFrame& frame, const MapScene& map,
                           const QPalette& palette) {
     painter.setRenderHint(QPainter::Antialiasing);
-    const double right = frame.camera.viewport_px.x() - kMargin_px, bottom = frame.camera.viewport_px.y();
-    drawCompass(painter, frame, {right - kCompass_px / 2.0, kMargin_px + kCompass_px / 2.0}, palette);
-    drawLegends(painter, map, {right, kMargin_px + kCompass_px + 8.0}, palette);
-    QString note = exaggerationText(frame.exaggeration);
-    note = note.isEmpty() ? QCoreApplication::translate("TerrainFurniture", "Heights as they are")
-                          : QCoreApplication::translate("TerrainFurniture", "Heights %1").arg(note);
-    if (frame.contour_interval_m > 0.0) {
-        note += QCoreApplication::translate("TerrainFurniture", ", contours every %1")
-                    .arg(shortLength(frame.contour_interval_m));
-    }
-    drawNote(painter, {kMargin_px, bottom - kMargin_px}, note, palette);
+    drawCompass(painter, frame, compassMiddle(frame), palette);
+    drawLegends(painter, map, legendCorner(frame), palette);
+    drawNote(painter, frame, palette);
+}
+
+std::vector<QRectF> terrainFurnitureBoxes(const QFontMetricsF& metrics, const TerrainFrame& frame,
+                                          const MapScene& map) {
+    std::vector<QRectF> boxes = legendBoxes(metrics, map, legendCorner(frame));
+    const QPointF middle = compassMiddle(frame);
+    boxes.emplace_back(middle.x() - kCompass_px / 2.0, middle.y() - kCompass_px / 2.0, kCompass_px,
+                       kCompass_px);
+    boxes.push_back(noteBox(metrics, frame));
+    return boxes;
 }
 
 }  // namespace terrawalk::gui

@@ -426,8 +426,8 @@ void TerrainView::hidePick() {
 
 void TerrainView::paintFurniture(QPainter& painter) {
     if (!frame_.scene) return;
-    drawAxes(painter, frame_, palette());
-    if (map_.shown.marks) drawPins(painter, frame_, map_, palette());
+    const std::vector<QRectF> labels = drawAxes(painter, frame_, palette());
+    if (map_.shown.marks) drawPins(painter, frame_, map_, labels, palette());
     if (picked_map_m_) drawPick(painter, frame_, *picked_map_m_);
     drawTerrainFurniture(painter, frame_, map_, palette());
 }

@@ -7,7 +7,9 @@
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTest>
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "app/gui/point_card.hpp"
 #include "app/gui/software_rasteriser.hpp"
@@ -127,6 +129,7 @@ class TestTerrainView : public QObject {
     void cardSelectsTheStretch();
     void clickOnPinSelectsTheMark();
     void namesOfMarksLieOnNothing();
+    void namesWithoutRoomStandAtTheEndOfALine();
     void dragTurnsAndShiftDragMoves();
     void keysTurnZoomAndReset();
     void layersChangeThePicture();
@@ -561,23 +564,48 @@ void TestTerrainView::namesOfMarksLieOnNothing() {
         marks.push_back({at, QString("FP%1").arg(marks.size()), false, 30.0});
     }
     const QFontMetricsF metrics{QFont()};
-    const auto placed = placeMarkNames(metrics, marks);
-    QVERIFY(placed.size() >= 3);
-    for (const PlacedName& name : placed) {
-        for (const PlacedName& other : placed) QVERIFY(&name == &other || !name.box.intersects(other.box));
+    const QRectF legend(250, 70, 40, 60), seen(0, 0, 400, 300);
+    // The last one has the legend at its right, and one lies beyond the view.
+    marks.push_back({{236, 100}, "FP6", false, 30.0});
+    marks.push_back({{-40, 100}, "FP7", false, 30.0});
+    const MarkNames names = placeMarkNames(metrics, marks, {seen, {legend}});
+    std::set<std::size_t> named;
+    for (const PlacedName& place : names.places) {
+        named.insert(place.mark);
+        QVERIFY(seen.contains(place.box));
+        QVERIFY(!place.box.intersects(legend));
+        for (const PlacedName& other : names.places)
+            QVERIFY(&place == &other || !place.box.intersects(other.box));
         for (const MarkName& mark : marks) {
-            QVERIFY(!name.box.intersects({mark.at - QPointF(8, 8), QSizeF(16, 16)}));
-            QVERIFY(!name.box.intersects({mark.at.x() - 2, mark.at.y(), 4, mark.pin_px}));
+            QVERIFY(!place.box.intersects({mark.at - QPointF(8, 8), QSizeF(16, 16)}));
+            QVERIFY(!place.box.intersects({mark.at.x() - 2, mark.at.y(), 4, mark.pin_px}));
         }
+        // Who stands alone has the name at the right.
+        if (place.mark == 4) QVERIFY(place.start.x() > 300 && !place.led);
     }
-    // Who stands alone has the name at the right.
-    QVERIFY(placed.back().mark == &marks.back() && placed.back().start.x() > 300);
-    // No room at all: only the highlighted one is shown.
-    const std::vector<MarkName> heap(40, MarkName{{50, 50}, "FP"});
-    QVERIFY(placeMarkNames(metrics, heap).size() <= 4);
-    std::vector<MarkName> one = heap;
-    one.back().highlighted = true;
-    QVERIFY(placeMarkNames(metrics, one).back().mark == &one.back());
+    QCOMPARE(named, (std::set<std::size_t>{0, 1, 2, 3, 4, 5}));
+}
+
+void TestTerrainView::namesWithoutRoomStandAtTheEndOfALine() {
+    const QFontMetricsF metrics{QFont()};
+    const QRectF seen(0, 0, 400, 300);
+    const auto among = [&](std::size_t count, bool far_too) {
+        std::vector<MarkName> heap(count, MarkName{{200, 150}, "FP"});
+        return placeMarkNames(metrics, heap, {seen, {}, far_too}).places;
+    };
+    const auto led = [](const std::vector<PlacedName>& places) {
+        return std::count_if(places.begin(), places.end(), [](const PlacedName& p) { return p.led; });
+    };
+    QCOMPARE(among(12, true).size(), 12U);
+    QVERIFY(led(among(12, true)) >= 8);
+    QVERIFY(among(12, false).size() < 12);
+    QCOMPARE(led(among(12, false)), 0);
+    // Hundreds on one place: as many as can be read, and the highlighted one.
+    std::vector<MarkName> heap(500, MarkName{{200, 150}, "FP"});
+    heap.back().highlighted = true;
+    const MarkNames names = placeMarkNames(metrics, heap, {seen, {}});
+    QVERIFY(names.places.size() < 60);
+    QCOMPARE(names.places.back().mark, heap.size() - 1);
 }
 
 void TestTerrainView::dragTurnsAndShiftDragMoves() {
