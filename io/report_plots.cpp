@@ -265,7 +265,7 @@ std::size_t drawMarks(Svg& svg, const SurveyReport& report, const MapFrame& map,
         if (!mark.enu_m.head<2>().allFinite()) continue;
         const std::string words = shortened(mark.name, 16);
         if (const auto at = placer.place(map.x(mark.enu_m.x()), map.y(mark.enu_m.y()), words)) {
-            svg.text(at->first, at->second, words, "label");
+            svg.name(at->first, at->second, words, "label");
         } else {
             ++unnamed;
         }
@@ -380,7 +380,7 @@ void drawMarkAxes(Svg& svg, const MarkPlot& plot, const std::vector<Column>& col
     const auto label_every = static_cast<std::size_t>(std::ceil(13.0 / plot.column_px));
     for (std::size_t i = 0; i < columns.size(); ++i) {
         if (i % label_every == 0) {
-            svg.text(plot.x(i) + 4, plot.bottom + 8, shortened(columns[i].label, plot.kLabelCharacters),
+            svg.name(plot.x(i) + 4, plot.bottom + 8, shortened(columns[i].label, plot.kLabelCharacters),
                      "tick", Anchor::End, -90);
         }
         if (i > 0 && columns[i - 1].role != columns[i].role) {

@@ -108,6 +108,16 @@ void Svg::image(double x, double y, double width, double height, std::string_vie
 
 void Svg::text(double x, double y, std::string_view words, std::string_view css, Anchor anchor,
                double turn_deg) {
+    this->words(x, y, words, css, anchor, turn_deg, {});
+}
+
+void Svg::name(double x, double y, std::string_view name, std::string_view css, Anchor anchor,
+               double turn_deg) {
+    words(x, y, name, css, anchor, turn_deg, R"( translate="no")");
+}
+
+void Svg::words(double x, double y, std::string_view words, std::string_view css, Anchor anchor,
+                double turn_deg, std::string_view attributes) {
     auto out = std::back_inserter(body_);
     fmt::format_to(out, R"(<text x="{}" y="{}")", pixels(x), pixels(y));
     if (anchor != Anchor::Start) {
@@ -116,7 +126,7 @@ void Svg::text(double x, double y, std::string_view words, std::string_view css,
     if (turn_deg != 0.0)
         fmt::format_to(out, " transform=\"rotate({} {} {})\"", turn_deg, pixels(x), pixels(y));
     if (!css.empty()) fmt::format_to(out, R"( class="{}")", css);
-    fmt::format_to(out, ">{}</text>\n", escapedMarkup(words));
+    fmt::format_to(out, "{}>{}</text>\n", attributes, escapedMarkup(words));
 }
 
 std::string Svg::str() const {

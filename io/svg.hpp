@@ -42,6 +42,9 @@ class Svg {
     /// @param turn_deg  clockwise about (x, y)
     void text(double x, double y, std::string_view words, std::string_view css, Anchor anchor = Anchor::Start,
               double turn_deg = 0.0);
+    /// A name, which is the same in every language.
+    void name(double x, double y, std::string_view name, std::string_view css, Anchor anchor = Anchor::Start,
+              double turn_deg = 0.0);
 
     /// The element, no wider on the page than it was drawn.
     [[nodiscard]] std::string str() const;
@@ -50,6 +53,8 @@ class Svg {
     [[nodiscard]] std::string file(std::string_view css) const;
 
   private:
+    void words(double x, double y, std::string_view words, std::string_view css, Anchor anchor,
+               double turn_deg, std::string_view attributes);
     void element(std::string_view tag, std::string_view attributes, std::string_view css,
                  std::string_view tooltip);
     double width_;

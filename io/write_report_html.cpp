@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/chinese_page.hpp"
 #include "io/markup_text.hpp"
 #include "io/output_folder.hpp"
 #include "io/report_plots.hpp"
@@ -27,13 +28,16 @@ std::string metres3(double value_m) {
     return fixedDecimals(value_m, 3);
 }
 
+/// Names and codes are the same in every language.
+constexpr std::string_view kName = " translate=\"no\"";
+
 /// What a table cell holds; numbers stand to the right.
-enum class Cell { Text, Short, Number, Key, Hash };
+enum class Cell { Text, Short, Number, Name, Key, Hash };
 
 std::string cell(Cell kind, std::string_view words) {
-    constexpr std::array<std::string_view, 5> kClasses{"text", "short", "n", "key", "hash"};
-    return fmt::format("<td class=\"{}\">{}</td>", kClasses[static_cast<std::size_t>(kind)],
-                       escapedMarkup(words));
+    constexpr std::array<std::string_view, 6> kClasses{"text", "short", "n", "text", "key", "hash"};
+    return fmt::format("<td class=\"{}\"{}>{}</td>", kClasses[static_cast<std::size_t>(kind)],
+                       kind >= Cell::Name ? kName : "", escapedMarkup(words));
 }
 
 std::string number(std::size_t value) {
@@ -45,6 +49,10 @@ std::string metresCell(double value_m) {
 
 std::string rowHead(std::string_view words) {
     return fmt::format("<th scope=\"row\">{}</th>", escapedMarkup(words));
+}
+
+std::string nameHead(std::string_view name) {
+    return fmt::format("<th scope=\"row\"{}>{}</th>", kName, escapedMarkup(name));
 }
 
 struct Heading {
@@ -131,15 +139,19 @@ std::string capitalised(std::string_view words) {
 // ---------------------------------------------------------------------------------------------- what comes
 // first
 
+std::string titleOf(const SurveyReport& report) {
+    return report.survey_name.empty() ? "Unnamed survey" : report.survey_name;
+}
+
 std::string header(const SurveyReport& report) {
-    const std::string title = report.survey_name.empty() ? "Unnamed survey" : report.survey_name;
     return fmt::format(
-        "<header>\n<h1>{}</h1>\n<p class=\"lead\">Terrain survey: what was made and how far to trust it. "
+        "<header>\n<h1{}>{}</h1>\n<p class=\"lead\">Terrain survey: what was made and how far to trust it. "
         "Terrawalk {}.</p>\n"
         "<nav><a href=\"#map\">Map</a><a href=\"#errors\">Errors</a><a href=\"#accuracy\">Accuracy</a>"
         "<a href=\"#surface\">Terrain model</a><a href=\"#runs\">Runs</a><a href=\"#sensors\">Sensors</a>"
         "<a href=\"#record\">Record</a></nav>\n</header>\n",
-        escapedMarkup(title), escapedMarkup(report.program_version));
+        report.survey_name.empty() ? "" : kName, escapedMarkup(titleOf(report)),
+        escapedMarkup(report.program_version));
 }
 
 std::string figureCards(const SurveyReport& report) {
@@ -178,8 +190,8 @@ std::string trackKey(const SurveyReport& report) {
     for (std::size_t i = 0; i < std::min(report.runs.size(), kMostRuns); ++i) {
         out += fmt::format(
             "<li><svg viewBox=\"0 0 28 8\" aria-hidden=\"true\"><line x1=\"0\" y1=\"4\" x2=\"28\" y2=\"4\" "
-            "class=\"track {}\"/></svg>{}</li>\n",
-            classes[i], escapedMarkup(shortened(report.runs[i].id, 24)));
+            "class=\"track {}\"/></svg><span{}>{}</span></li>\n",
+            classes[i], kName, escapedMarkup(shortened(report.runs[i].id, 24)));
     }
     return out.empty() ? out : "<ul class=\"runs\">\n" + out + "</ul>\n";
 }
@@ -362,9 +374,9 @@ std::string signedSigma(const Residual& r, Eigen::Index axis) {
 std::string residualTable(const SurveyReport& report) {
     std::string rows;
     for (const Residual& r : report.residuals) {
-        rows += fmt::format("<tr{}>", r.used_by_estimator ? " class=\"tied\"" : "") + rowHead(r.mark) +
+        rows += fmt::format("<tr{}>", r.used_by_estimator ? " class=\"tied\"" : "") + nameHead(r.mark) +
                 cell(Cell::Short, name(r.role)) + cell(Cell::Text, name(r.stage)) +
-                cell(Cell::Text, name(r.quantity)) + cell(Cell::Text, r.run) +
+                cell(Cell::Text, name(r.quantity)) + cell(Cell::Name, r.run) +
                 metresCell(r.difference_enu_m.x()) + metresCell(r.difference_enu_m.y()) +
                 metresCell(r.difference_enu_m.z()) + metresCell(r.sigma_enu_m.z()) +
                 cell(Cell::Number, signedSigma(r, 2)) +
@@ -624,7 +636,7 @@ std::string logTable(const SurveyReport& report) {
     for (const std::string& fix : fixes) headings.push_back({"Fix: " + fix, true});
     std::string rows;
     for (const RunReport& run : report.runs) {
-        std::string cells = rowHead(run.id) + cell(Cell::Short, name(run.kind)) + number(run.rows_read) +
+        std::string cells = nameHead(run.id) + cell(Cell::Short, name(run.kind)) + number(run.rows_read) +
                             number(run.repeated_lines.size()) + number(run.late_lines.size()) +
                             number(run.epochs) + cell(Cell::Number, fixedDecimals(run.duration_s, 1)) +
                             cell(Cell::Number, fixedDecimals(run.longest_gap_s, 1)) +
@@ -643,7 +655,7 @@ std::string groundPointTable(const SurveyReport& report) {
     for (const std::string& reason : reasons) headings.push_back({capitalised(reason), true});
     std::string rows;
     for (const RunReport& run : report.runs) {
-        std::string cells = rowHead(run.id) + number(run.epochs) + number(run.ground_points_used);
+        std::string cells = nameHead(run.id) + number(run.epochs) + number(run.ground_points_used);
         for (const std::string& reason : reasons)
             cells += number(countOf(run.ground_points_rejected, reason));
         rows += row(cells);
@@ -737,7 +749,7 @@ std::string sensorSection(const SurveyReport& report) {
     for (const RunReport& run : report.runs) {
         std::string rows;
         for (const SensorUse& use : run.sensors)
-            rows += row(rowHead(rows.empty() ? run.id : "") + sensorCells(use));
+            rows += row(nameHead(rows.empty() ? run.id : "") + sensorCells(use));
         if (!rows.empty()) bodies += "<tbody class=\"group\">\n" + rows + "</tbody>\n";
     }
     return out + folded("Run by run", table(headings, bodies));
@@ -783,7 +795,7 @@ std::string settingsTable(const SurveyReport& report) {
 std::string inputTable(const SurveyReport& report) {
     std::string rows;
     for (const InputFile& input : report.inputs) {
-        rows += row(cell(Cell::Text, input.path) + number(input.bytes) + cell(Cell::Hash, input.sha256));
+        rows += row(cell(Cell::Name, input.path) + number(input.bytes) + cell(Cell::Hash, input.sha256));
     }
     return rows.empty() ? rows : table({{"File"}, {"Bytes", true}, {"SHA-256"}}, tableBody(rows));
 }
@@ -807,7 +819,7 @@ std::string reportHtml(const SurveyReport& report) {
     std::string out = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
     out += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n";
     out += fmt::format("<title>{} \u2013 survey report</title>\n<style>{}</style>\n</head>\n<body>\n",
-                       escapedMarkup(report.survey_name), kReportStyle);
+                       escapedMarkup(titleOf(report)), kReportStyle);
     out += header(report) + figureCards(report);
     out += "<main>\n" + verdict(report) + limitations(report);
     out += section("map", "Map of the walk", mapSection(report));
@@ -828,7 +840,7 @@ std::string reportHtml(const SurveyReport& report) {
         "</main>\n<footer>Made by Terrawalk from the files listed above. The same figures stand in "
         "report.json, the "
         "comparisons in residuals.csv.</footer>\n</body>\n</html>\n";
-    return out;
+    return report.language == ReportLanguage::Chinese ? chinesePage(out) : out;
 }
 
 Result<void> writeReportHtml(const SurveyReport& report, const std::filesystem::path& file) {

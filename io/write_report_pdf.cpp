@@ -372,6 +372,18 @@ std::vector<TableRow> rowsOf(const CPLXMLNode* table, double size) {
 
 constexpr double kCellGap = 6.0;
 
+/// The first part of a text that no line break takes apart: a word, or one character of Chinese.
+std::string_view firstUnbroken(std::string_view text) {
+    const auto is_wide = [](char c) {
+        return static_cast<unsigned char>(c) >= 0xE3;  // U+3000 and beyond
+    };
+    constexpr std::size_t kWideBytes = 3;
+    if (is_wide(text.front())) return text.substr(0, kWideBytes);
+    const auto* const end =
+        std::find_if(text.begin(), text.end(), [&](char c) { return c == ' ' || c == '\n' || is_wide(c); });
+    return text.substr(0, static_cast<std::size_t>(end - text.begin()));
+}
+
 /// As wide as their text where all fits; else the widest give way, down to their longest word.
 std::vector<double> columnWidths(Paper& paper, const std::vector<TableRow>& rows, double whole) {
     std::vector<double> natural, least;
@@ -386,15 +398,14 @@ std::vector<double> columnWidths(Paper& paper, const std::vector<TableRow>& rows
             natural[column] =
                 std::max(natural[column], Paper::widthOf(paper.layout(cell.text, cell.look, 0.0)) + 0.5);
             for (std::size_t at = 0; at < cell.text.size();) {
-                const std::size_t end = std::min(cell.text.find_first_of(" \n", at), cell.text.size());
-                const std::string word = cell.text.substr(at, end - at);
+                const std::string word(firstUnbroken(std::string_view(cell.text).substr(at)));
                 // A number with its blanks is one word.
                 const std::string& unbroken = cell.look.to_the_right && !row.is_head ? cell.text : word;
                 if (!cell.look.monospace) {
                     least[column] =
                         std::max(least[column], Paper::widthOf(paper.layout(unbroken, cell.look, 0.0)) + 0.5);
                 }
-                at = end + 1;
+                at += std::max<std::size_t>(word.size(), 1);  // over a blank
             }
         }
     }
@@ -703,10 +714,29 @@ void print(Paper& paper, const CPLXMLNode* node) {
     printChildren(paper, node);
 }
 
+/// Whether the machine has a font for it.
+bool canShowChinese() {
+    const std::unique_ptr<PangoContext, Freed<g_object_unref>> context(
+        pango_font_map_create_context(pango_cairo_font_map_get_default()));
+    const Layout layout(pango_layout_new(context.get()));
+    pango_layout_set_text(layout.get(), "\u6d4b\u91cf", -1);
+    return pango_layout_get_unknown_glyphs_count(layout.get()) == 0;
+}
+
+std::string pageForPaper(const SurveyReport& report) {
+    if (report.language == ReportLanguage::English || canShowChinese()) return reportHtml(report);
+    SurveyReport readable = report;
+    readable.language = ReportLanguage::English;
+    readable.warnings.emplace_back(
+        "This machine has no font for Chinese, so this file is in English; report.html is in Chinese. On "
+        "Debian install fonts-wqy-microhei.");
+    return reportHtml(readable);
+}
+
 }  // namespace
 
 Result<std::string> reportPdf(const SurveyReport& report) {
-    const std::string html = reportHtml(report);
+    const std::string html = pageForPaper(report);
     const Page page(CPLParseXMLString(html.c_str()));
     const CPLXMLNode* const body = page ? findElement(page.get(), "body") : nullptr;
     if (body == nullptr) return systemError("the report's page cannot be laid out");

@@ -305,8 +305,12 @@ struct TuningRecord {
     std::vector<ControlMark> marks;  ///< on which they were tuned: while in use, these certify nothing
 };
 
-/// Everything that the report files say; each writer shows the same values.
+/// Of report.html and report.pdf; the files for programs stay English.
+enum class ReportLanguage { English, Chinese };
+
+/// Everything that the report files say, in English; each writer shows the same values.
 struct SurveyReport {
+    ReportLanguage language = ReportLanguage::English;
     std::string survey_name;
     std::string program_version;
     std::string method;

@@ -1,6 +1,6 @@
 # Who may include whom. Run as: cmake -D SOURCE=<root> -P layering.cmake
 # Reads every #include "folder/..." of our own folders and the third-party headers that belong to one folder only.
-set(allowed_survey survey)
+set(allowed_survey survey resources)
 set(allowed_fusion fusion survey)
 set(allowed_mapping mapping survey)
 set(allowed_io io survey)

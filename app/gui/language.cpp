@@ -22,7 +22,16 @@ QTranslator& qtTexts() {
     return translator;
 }
 
+ReportLanguage& appliedLanguage() {
+    static ReportLanguage language = ReportLanguage::English;
+    return language;
+}
+
 }  // namespace
+
+ReportLanguage reportLanguage() {
+    return appliedLanguage();
+}
 
 QString chineseOf(const char* context, const QString& english) {
     static QTranslator chinese;
@@ -33,6 +42,7 @@ QString chineseOf(const char* context, const QString& english) {
 void applyLanguage(const QString& language) {
     registerResources();
     const QString name = language.startsWith("zh") ? "zh_CN" : "en";
+    appliedLanguage() = name == "en" ? ReportLanguage::English : ReportLanguage::Chinese;
     QCoreApplication::removeTranslator(&ownTexts());
     QCoreApplication::removeTranslator(&qtTexts());
     // English has a file too: of plurals.

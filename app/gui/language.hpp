@@ -3,6 +3,8 @@
 #include <QString>
 #include <QStringList>
 
+#include "survey/survey_report.hpp"
+
 class QCoreApplication;
 
 namespace terrawalk::gui {
@@ -16,5 +18,7 @@ void applyLanguage(const QString& language);
 [[nodiscard]] QString joinSentences(const QStringList& sentences);
 /// What was chosen last, or what the system speaks.
 [[nodiscard]] QString preferredLanguage();
+/// That of the window, for the report.
+[[nodiscard]] ReportLanguage reportLanguage();
 
 }  // namespace terrawalk::gui

@@ -17,6 +17,8 @@ namespace terrawalk::gui {
 
 namespace {
 
+constexpr int kLeastWidth_px = 264;
+
 QLabel* label(const QString& text, const char* name = nullptr) {
     auto* made = new QLabel(text);
     if (name != nullptr) made->setObjectName(name);
@@ -24,13 +26,20 @@ QLabel* label(const QString& text, const char* name = nullptr) {
     return made;
 }
 
-/// One line, cut where the column ends.
-QLabel* line(const QString& text, const char* name = nullptr) {
-    auto* made = new QLabel(text);
-    if (name != nullptr) made->setObjectName(name);
-    made->setToolTip(text);
-    made->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-    return made;
+/// A name that may go on in the next line after any sign, and after eight characters without one.
+QString breakable(const QString& name) {
+    constexpr QChar kMayBreak(0x200B);
+    constexpr int kLongest = 8;
+    QString words;
+    int together = 0;
+    for (const QChar c : name) {
+        words += c;
+        together = c.isLetterOrNumber() ? together + 1 : kLongest;
+        if (together < kLongest) continue;
+        words += kMayBreak;
+        together = 0;
+    }
+    return words;
 }
 
 QLabel* figureLabel(const QString& text) {
@@ -63,7 +72,7 @@ class ShareBar : public QWidget {
 
 void addPart(QGridLayout& grid, const QString& name, double part_m, double sigma_m) {
     const int row = grid.rowCount();
-    grid.addWidget(line(name), row, 0);
+    grid.addWidget(label(name), row, 0);
     grid.addWidget(figureLabel(lengthText(part_m)), row, 1);
     grid.addWidget(new ShareBar(sigma_m > 0.0 ? part_m * part_m / (sigma_m * sigma_m) : 0.0), row + 1, 0, 1,
                    2);
@@ -132,20 +141,18 @@ void addSamples(QVBoxLayout& column, const PlaceReport& place) {
     const QStringList heads{PlacePanel::tr("Run, time"), PlacePanel::tr("away (%1)").arg(lengthUnit()),
                             PlacePanel::tr("height"), PlacePanel::tr("σ")};
     for (int c = 0; c < heads.size(); ++c) {
-        auto* head = c == 0 ? line(heads[c]) : figureLabel(heads[c]);
+        auto* head = c == 0 ? label(heads[c]) : figureLabel(heads[c]);
         head->setObjectName("quiet");
         grid->addWidget(head, 0, c);
     }
     for (const NearSample& sample : place.nearest) {
         const int row = grid->rowCount();
         const QString run = QString::fromStdString(sample.run_id);
-        QString where = PlacePanel::tr("%1 %2 s").arg(run, number(sample.time_s, 1));
-        auto* first = line(where);
-        if (sample.state != GroundPointState::Used) {
-            first->setText(where + " · " + reportWords(name(sample.state)));
-            first->setObjectName("quiet");
-        }
-        grid->addWidget(first, row, 0);
+        // Narrow columns break between the run, its time, and why the hit was not used.
+        QString where = breakable(run) + ' ' + number(sample.time_s, 1) + QChar(QChar::Nbsp) + 's';
+        const bool used = sample.state == GroundPointState::Used;
+        if (!used) where += " · " + reportWords(name(sample.state));
+        grid->addWidget(label(where, used ? nullptr : "quiet"), row, 0);
         grid->addWidget(figureLabel(number(inUnit(sample.distance_m), 2)), row, 1);
         grid->addWidget(figureLabel(number(inUnit(sample.height_m), 2)), row, 2);
         grid->addWidget(figureLabel(number(inUnit(sample.sigma_height_m), 2)), row, 3);
@@ -156,6 +163,7 @@ void addSamples(QVBoxLayout& column, const PlaceReport& place) {
 }  // namespace
 
 PlacePanel::PlacePanel(QWidget* parent) : QFrame(parent) {
+    setMinimumWidth(kLeastWidth_px);
     scroll_ = new QScrollArea;
     scroll_->setWidgetResizable(true);
     scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);

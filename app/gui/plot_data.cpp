@@ -434,10 +434,10 @@ Plot normalisedErrors(const SurveyReport& report) {
     };
     const std::array<Kind, 4> kinds{
         Kind{Stage::Fused, Quantity::ArrayPosition, true,
-             QCoreApplication::translate("PlotData", "Track, tied to the mark")},
+             QCoreApplication::translate("PlotData", "Track, tied")},
         Kind{Stage::Fused, Quantity::ArrayPosition, false, QCoreApplication::translate("PlotData", "Track")},
         Kind{Stage::Surface, Quantity::SurfaceHeight, true,
-             QCoreApplication::translate("PlotData", "Surface, mark used by the estimator")},
+             QCoreApplication::translate("PlotData", "Surface, tied")},
         Kind{Stage::Surface, Quantity::SurfaceHeight, false,
              QCoreApplication::translate("PlotData", "Surface")}};
     const std::array<QString, 3> axes{QCoreApplication::translate("PlotData", "East"),

@@ -17,6 +17,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "app/gui/language.hpp"
 #include "app/gui/recent_surveys.hpp"
 #include "app/gui/report_words.hpp"
 #include "app/gui/theme.hpp"
@@ -96,9 +97,9 @@ void ReportView::make() {
     if (!products_) return;
     current_ = true;
     const QString file = folder_.filePath("report.pdf");
-    pages_beside_.start([survey = survey_, products = products_, file, width_px = pageWidth_px(),
-                         ratio = devicePixelRatioF()]() -> Made {
-        if (const auto written = writeReport(*survey, *products, file.toStdString()); !written) {
+    pages_beside_.start([survey = survey_, products = products_, language = reportLanguage(), file,
+                         width_px = pageWidth_px(), ratio = devicePixelRatioF()]() -> Made {
+        if (const auto written = writeReport(*survey, *products, language, file.toStdString()); !written) {
             return {{}, errorWords(written.error()), {}};
         }
         return drawnPages(file, width_px, ratio);

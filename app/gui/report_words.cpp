@@ -1,21 +1,19 @@
 #include "app/gui/report_words.hpp"
 
 #include <QCoreApplication>
-#include <QHash>
-#include <QRegularExpression>
-#include <algorithm>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "app/gui/error_words.hpp"
+#include "app/gui/language.hpp"
+#include "app/gui/page_words.hpp"
+#include "survey/chinese_words.hpp"
 
 namespace terrawalk::gui {
 
 namespace {
 
-// What the core says in English. Here for the tool that collects texts, and to know sentences with numbers
-// and names in them again.
+// What the core says in English. Here for the tool that collects texts; survey/chinese_words.hpp finds them,
+// with numbers and names in them, in the table that it fills.
 constexpr const char* kWords[] = {
     QT_TRANSLATE_NOOP("Report", "before fusion"),
     QT_TRANSLATE_NOOP("Report", "fused"),
@@ -314,76 +312,17 @@ constexpr const char* kSentences[] = {
     QT_TRANSLATE_NOOP("Report", "%1 is passed over: %2"),
 };
 
-/// A sentence with places for numbers and names.
-struct Pattern {
-    QRegularExpression expression;
-    const char* source;
-    qsizetype letters;
-};
-
-Pattern patternOf(const char* source) {
-    QString expression = QRegularExpression::escape(QString::fromUtf8(source));
-    const qsizetype letters = expression.size();
-    static const QRegularExpression place("\\\\%\\d");
-    // "30 check marks": only a number makes it one.
-    static const QRegularExpression counted("^%1 ((check|control) )?(mark|comparison)s?$");
-    const bool count = counted.match(QString::fromUtf8(source)).hasMatch();
-    expression.replace(place, count ? "(\\d[\\d.]*)" : "(.+?)");
-    return {QRegularExpression(QRegularExpression::anchoredPattern(expression)), source, letters};
-}
-
-/// The longest first: it says the most.
-const std::vector<Pattern>& patterns() {
-    static const std::vector<Pattern> all = [] {
-        std::vector<Pattern> made;
-        for (const char* source : kSentences) made.push_back(patternOf(source));
-        for (const char* source : kErrorSentences) made.push_back(patternOf(source));
-        std::stable_sort(made.begin(), made.end(),
-                         [](const Pattern& a, const Pattern& b) { return a.letters > b.letters; });
-        return made;
-    }();
-    return all;
-}
-
-QString translated(const QString& words, int depth);
-
-std::optional<QString> bySentence(const QString& words, int depth) {
-    for (const Pattern& pattern : patterns()) {
-        const auto match = pattern.expression.match(words);
-        if (!match.hasMatch()) continue;
-        QString sentence = QCoreApplication::translate("Report", pattern.source);
-        // In one go: what is put in may hold a percent sign itself.
-        QString filled;
-        for (qsizetype i = 0; i < sentence.size(); ++i) {
-            const int place =
-                sentence[i] == '%' && i + 1 < sentence.size() ? sentence[i + 1].digitValue() : -1;
-            if (place < 1 || place > match.lastCapturedIndex()) {
-                filled += sentence[i];
-                continue;
-            }
-            filled += translated(match.captured(place), depth + 1);
-            ++i;
-        }
-        return filled;
-    }
-    return std::nullopt;
-}
-
-QString translated(const QString& words, int depth) {
-    const QString whole = QCoreApplication::translate("Report", words.toUtf8().constData());
-    if (whole != words || depth > 3) return whole;
-    return bySentence(words, depth).value_or(words);
-}
-
 }  // namespace
 
 QString reportWords(std::string_view words) {
-    const QString text = QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size()));
-    // English is what the core says already.
+    // These are for the tool alone.
     static_cast<void>(kWords);
+    static_cast<void>(kSentences);
     static_cast<void>(kErrorWords);
-    if (QCoreApplication::translate("Report", "done") == QLatin1String("done")) return text;
-    return translated(text, 0);
+    static_cast<void>(kErrorSentences);
+    static_cast<void>(kPageWords);
+    return QString::fromStdString(reportLanguage() == ReportLanguage::Chinese ? inChinese(words)
+                                                                              : std::string(words));
 }
 
 QString errorWords(const Error& error) {

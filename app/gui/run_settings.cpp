@@ -63,7 +63,11 @@ std::vector<std::string> RunSettings::differences(const RunSettings& other) cons
 }
 
 const std::vector<ParameterInfo>& knownParameters() {
-    static const std::vector<ParameterInfo> all = describeParameters();
+    static const std::vector<ParameterInfo> all = [] {
+        std::vector<ParameterInfo> known = describeParameters();
+        std::erase_if(known, [](const ParameterInfo& info) { return info.key == kLanguageKey; });
+        return known;
+    }();
     return all;
 }
 

@@ -38,7 +38,9 @@ class RunSettings {
     std::shared_ptr<const TuningRecord> tuning_;
 };
 
-/// Every parameter there is, in the order of `terrawalk config describe`; read once.
+/// The report's language is the window's, and so none of the settings here.
+inline constexpr std::string_view kLanguageKey = "report.language";
+/// Every other parameter there is, in the order of `terrawalk config describe`; read once.
 [[nodiscard]] const std::vector<ParameterInfo>& knownParameters();
 /// Nothing with that key: an empty description.
 [[nodiscard]] const ParameterInfo& parameterInfo(std::string_view key);

@@ -1,8 +1,11 @@
 #include "app/gui/runs_dialog.hpp"
 
+#include <QCheckBox>
 #include <QDialogButtonBox>
+#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QLocale>
 #include <QPushButton>
 #include <QTableWidget>
 #include <QVBoxLayout>
@@ -26,6 +29,10 @@ QTableWidgetItem* cell(const QString& text, bool number = false) {
     QTableWidgetItem* item = tableCell(text, number);
     item->setToolTip(text);
     return item;
+}
+
+QString sizeText(qint64 bytes) {
+    return QLocale().formattedDataSize(bytes, 1, QLocale::DataSizeSIFormat);
 }
 
 QTableWidget* table(const QString& name, const QString& accessible_name) {
@@ -58,6 +65,11 @@ RunsDialog::RunsDialog(SurveySession& session, QWidget* parent) : QDialog(parent
     column->setContentsMargins(2 * kGrid_px, 2 * kGrid_px, 2 * kGrid_px, 2 * kGrid_px);
     column->setSpacing(kGrid_px);
     column->addWidget(buildRuns(), 3);
+    results_ = new QLabel;
+    results_->setObjectName("results_of_run");
+    results_->setWordWrap(true);
+    column->addWidget(results_);
+    column->addLayout(buildKeeping());
     what_ = new QLabel;
     what_->setObjectName("cardTitle");
     column->addWidget(what_);
@@ -65,6 +77,8 @@ RunsDialog::RunsDialog(SurveySession& session, QWidget* parent) : QDialog(parent
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
     compare_ = buttons->addButton(tr("Compare heights"), QDialogButtonBox::ActionRole);
     compare_->setObjectName("compare_run");
+    again_ = buttons->addButton(tr("Process it again"), QDialogButtonBox::ActionRole);
+    again_->setObjectName("process_run_again");
     go_back_ = buttons->addButton(tr("Go back to this run"), QDialogButtonBox::ActionRole);
     go_back_->setObjectName("primary");
     column->addWidget(buttons);
@@ -74,8 +88,21 @@ RunsDialog::RunsDialog(SurveySession& session, QWidget* parent) : QDialog(parent
         accept();
     });
     connect(compare_, &QPushButton::clicked, this, [this] {
-        session_.compareWith(*session_.resultsOf(chosen()));
+        session_.compareWithRun(chosen());
         accept();
+    });
+    connect(again_, &QPushButton::clicked, this, [this] {
+        session_.showRunAgain(chosen());
+        accept();
+    });
+    connect(keep_, &QCheckBox::toggled, this, [this](bool keep) {
+        session_.keepSurfaces(keep);
+        showKeeping();
+        showChosen();
+    });
+    connect(&session_.job(), &BackgroundJob::runningChanged, this, [this] {
+        showKeeping();
+        showChosen();
     });
     connect(runs_, &QTableWidget::itemSelectionChanged, this, &RunsDialog::showChosen);
     runs_->selectRow(runs_->rowCount() > 1 ? 1 : 0);  // the one before the last
@@ -108,6 +135,57 @@ QTableWidget* RunsDialog::buildDifferences() {
     differences_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
     differences_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
     return differences_;
+}
+
+QLayout* RunsDialog::buildKeeping() {
+    keep_ = new QCheckBox(tr("Keep surfaces on disk, to compare heights after a restart"));
+    keep_->setObjectName("keep_surfaces");
+    keep_->setToolTip(
+        tr("Of the runs whose results are here and of those to come, until they leave this "
+           "list. Unticked, those on disk are removed."));
+    keep_->setChecked(session_.keptSurfaces().wanted());
+    kept_ = new QLabel;
+    kept_->setObjectName("quiet");
+    auto* row = new QHBoxLayout;
+    row->addWidget(keep_);
+    row->addStretch();
+    row->addWidget(kept_);
+    showKeeping();
+    return row;
+}
+
+void RunsDialog::showKeeping() {
+    const KeptSurfaces kept = session_.keptSurfaces();
+    qint64 bytes = 0;
+    for (const RunSummary& run : session_.runs()) bytes += kept.bytes(run.when);
+    QStringList words;
+    if (bytes > 0) words << tr("%1 on disk").arg(sizeText(bytes));
+    if (const auto products = session_.products())
+        words << tr("at most %1 for each run").arg(sizeText(KeptSurfaces::mostBytes(*products)));
+    kept_->setText(words.join(tr("; ")));
+    keep_->setEnabled(!session_.busy());
+}
+
+QString RunsDialog::resultsWords(std::size_t run) const {
+    if (isShown(run)) return tr("Its results are shown.");
+    if (session_.resultsOf(run)) return tr("Its results are still here.");
+    const KeptSurfaces kept = session_.keptSurfaces();
+    const QDateTime when = session_.runs()[run].when;
+    if (kept.has(when))
+        return tr("Its surface is kept on disk (%1), so that heights can be compared. For the other views it "
+                  "has to be processed again.")
+            .arg(sizeText(kept.bytes(when)));
+    return tr(
+        "Only its settings and figures were kept. Processing it again gives its results back: the same "
+        "logs, settings and version of the program give the same bytes.");
+}
+
+QString RunsDialog::compareWords(std::size_t run) const {
+    if (session_.products() == nullptr)
+        return tr("Process the survey first: its heights are compared with those of this run");
+    if (isShown(run)) return tr("These are the heights that are shown");
+    if (!session_.canCompareWith(run)) return tr("The surface of this run was not kept");
+    return tr("How the heights changed since, as a layer");
 }
 
 void RunsDialog::addRun(std::size_t run) {
@@ -166,9 +244,11 @@ void RunsDialog::showChosen() {
         session_.resultsOf(run)
             ? tr("Shows its results and takes its settings over; undo brings yours back")
             : tr("Takes its settings over, undo brings yours back; process again to see its results"));
-    compare_->setEnabled(!session_.busy() && session_.resultsOf(run) && !isShown(run));
-    compare_->setToolTip(
-        tr("How the heights changed since, as a layer; for runs since the survey was opened"));
+    results_->setText(resultsWords(run));
+    again_->setEnabled(!session_.busy() && !session_.resultsOf(run));
+    again_->setToolTip(tr("Takes its settings over, undo brings yours back, and processes"));
+    compare_->setEnabled(!session_.busy() && session_.canCompareWith(run));
+    compare_->setToolTip(compareWords(run));
 }
 
 }  // namespace terrawalk::gui

@@ -5,7 +5,9 @@
 
 #include "app/pipeline/run_history.hpp"
 
+class QCheckBox;
 class QLabel;
+class QLayout;
 class QPushButton;
 class QTableWidget;
 
@@ -22,8 +24,12 @@ class RunsDialog : public QDialog {
   private:
     QTableWidget* buildRuns();
     QTableWidget* buildDifferences();
+    QLayout* buildKeeping();
     void addRun(std::size_t run);
     void showChosen();
+    void showKeeping();
+    [[nodiscard]] QString resultsWords(std::size_t run) const;
+    [[nodiscard]] QString compareWords(std::size_t run) const;
     [[nodiscard]] std::size_t chosen() const;
     [[nodiscard]] bool isShown(std::size_t run) const;
     [[nodiscard]] QString changesSinceTheRunBefore(std::size_t run) const;
@@ -32,7 +38,11 @@ class RunsDialog : public QDialog {
     QTableWidget* runs_ = nullptr;
     QTableWidget* differences_ = nullptr;
     QLabel* what_ = nullptr;
+    QLabel* results_ = nullptr;
+    QCheckBox* keep_ = nullptr;
+    QLabel* kept_ = nullptr;
     QPushButton* go_back_ = nullptr;
+    QPushButton* again_ = nullptr;
     QPushButton* compare_ = nullptr;
 };
 

@@ -128,22 +128,25 @@ void SurveySession::finishOpening(const fs::path& path, Survey survey, SurveyMap
 
 void SurveySession::process() {
     if (!survey_) return;
-    job_.start(
-        [this, survey = survey_, settings = settings_](Progress& progress, const std::stop_token& stop) {
-            const PipelineConfig config = settings.config();
-            auto edited = withEdits(*survey, config.edits);
-            Result<Products> made =
-                edited ? terrawalk::process(*edited, config, progress, stop) : tl::unexpected(edited.error());
-            Result<SurveyMap> map = made ? fusedMap(*edited, *made, stop) : tl::unexpected(made.error());
-            return [this, settings, edited = std::move(edited), made = std::move(made),
-                    map = std::move(map)]() mutable {
-                if (!map) return fail(map.error());
-                finishRun({QDateTime::currentDateTime(), settings,
-                           std::make_shared<const Survey>(std::move(*edited)),
-                           std::make_shared<const Products>(std::move(*made)),
-                           std::make_shared<const SurveyMap>(std::move(*map))});
-            };
-        });
+    job_.start([this, survey = survey_, settings = settings_, kept = keptSurfaces()](
+                   Progress& progress, const std::stop_token& stop) {
+        const PipelineConfig config = settings.config();
+        auto edited = withEdits(*survey, config.edits);
+        Result<Products> made =
+            edited ? terrawalk::process(*edited, config, progress, stop) : tl::unexpected(edited.error());
+        Result<SurveyMap> map = made ? fusedMap(*edited, *made, stop) : tl::unexpected(made.error());
+        const QDateTime when = QDateTime::currentDateTime();
+        const auto written =
+            map && kept.wanted() ? writeSurface(*edited, *made, kept.file(when), stop) : Result<void>();
+        return [this, when, settings, written, edited = std::move(edited), made = std::move(made),
+                map = std::move(map)]() mutable {
+            if (!map) return fail(map.error());
+            if (!written) Q_EMIT told(MessageKind::Warning, errorWords(written.error()));
+            finishRun({when, settings, std::make_shared<const Survey>(std::move(*edited)),
+                       std::make_shared<const Products>(std::move(*made)),
+                       std::make_shared<const SurveyMap>(std::move(*map))});
+        };
+    });
 }
 
 void SurveySession::finishRun(FinishedRun run) {
@@ -243,11 +246,55 @@ void SurveySession::compareWith(std::size_t run) {
 }
 
 void SurveySession::compareWith(const fs::path& dem) {
+    compareWith(dem, {});
+}
+
+void SurveySession::compareWith(const fs::path& dem, const QString& name) {
     if (history_.empty()) return;
-    job_.start([this, later = products(), dem](Progress& progress, const std::stop_token& stop) {
+    job_.start([this, later = products(), dem, name](Progress& progress, const std::stop_token& stop) {
         progress.report(0.0, "comparing");
-        return [this, change = changeSince(*later, dem, stop)]() mutable {
+        auto change = changeSince(*later, dem, stop);
+        if (change && !name.isEmpty()) change->earlier = name.toStdString();
+        return [this, change = std::move(change)]() mutable {
             takeChange(std::move(change));
+        };
+    });
+}
+
+void SurveySession::compareWithRun(std::size_t run) {
+    if (!canCompareWith(run)) return;
+    if (const auto results = resultsOf(run)) return compareWith(*results);
+    const QDateTime when = runs_[run].when;
+    compareWith(keptSurfaces().file(when), tr("the run of %1").arg(timeOfRun(when)));
+}
+
+bool SurveySession::canCompareWith(std::size_t run) const {
+    if (run >= runs_.size() || history_.empty()) return false;
+    const auto results = resultsOf(run);
+    return results ? *results != shown_ : keptSurfaces().has(runs_[run].when);
+}
+
+KeptSurfaces SurveySession::keptSurfaces() const {
+    return KeptSurfaces(runsFile().replace_extension());
+}
+
+void SurveySession::keepSurfaces(bool keep) {
+    const KeptSurfaces kept = keptSurfaces();
+    if (!keep) return kept.stop();
+    if (!kept.start()) {
+        Q_EMIT told(MessageKind::Error, tr("%1: cannot be written; check that you may write there")
+                                            .arg(text(kept.file(QDateTime()).parent_path().string())));
+        return;
+    }
+    job_.start([this, kept, runs = history_](Progress& progress, const std::stop_token& stop) {
+        progress.report(0.0, "writing");
+        Result<void> written;
+        for (const FinishedRun& run : runs) {
+            if (written && !kept.has(run.when))
+                written = writeSurface(*run.survey, *run.products, kept.file(run.when), stop);
+        }
+        return [this, written] {
+            if (!written) fail(written.error());
         };
     });
 }
@@ -271,6 +318,7 @@ void SurveySession::takeChange(Result<HeightChange> change) {
 void SurveySession::exportTo(const fs::path& folder, const ExportRequest& further) {
     if (history_.empty()) return;
     Provenance provenance;
+    provenance.language = reportLanguage();
     for (const QString& argument : commandArguments()) provenance.command.push_back(argument.toStdString());
     job_.start([this, run = history_[shown_], provenance, folder, further](Progress& progress,
                                                                            const std::stop_token& stop) {
@@ -347,7 +395,9 @@ fs::path SurveySession::settingsFile() const {
 
 bool SurveySession::writeSettings(const fs::path& file) {
     QString problem;
-    std::string content = toJson(settings_.config());
+    PipelineConfig config = settings_.config();
+    config.report.language = reportLanguage();
+    std::string content = toJson(config);
     if (const TuneTrace* trace = traceInUse()) content = withTrace(content, *trace);
     if (writeWhole(file, content, problem)) return true;
     Q_EMIT told(
@@ -365,6 +415,7 @@ bool SurveySession::saveSettingsAs(const fs::path& file) {
 bool SurveySession::save() {
     if (!survey_ || !writeSettings(settingsFile())) return false;
     saved_ = settings_;
+    saved_language_ = reportLanguage();
     autosave_.stop();
     QFile::remove(text(autosaveFile().string()));
     Q_EMIT savedChanged();
@@ -374,6 +425,7 @@ bool SurveySession::save() {
 
 void SurveySession::readSaved() {
     saved_ = RunSettings();
+    saved_language_ = ReportLanguage::English;
     std::error_code error;
     if (!fs::exists(settingsFile(), error)) return;
     PipelineConfig config;
@@ -384,6 +436,7 @@ void SurveySession::readSaved() {
         return;
     }
     saved_ = RunSettings(config);
+    saved_language_ = config.report.language;
     settings_ = saved_;
     if (!config.tuning) return;
     if (const auto trace = readTuneTrace(settingsFile())) addTraces({*trace});
@@ -408,6 +461,9 @@ void SurveySession::readRuns() {
 void SurveySession::keepRun(const FinishedRun& run) {
     runs_.push_back({run.when, text(programVersion()), run.settings, runFigures(run.products->report)});
     if (runs_.size() > kPastRuns) runs_.erase(runs_.begin());
+    std::vector<QDateTime> times;
+    for (const RunSummary& one : runs_) times.push_back(one.when);
+    keptSurfaces().keepOnly(times);
     std::vector<PastRun> kept;
     for (const RunSummary& one : runs_) {
         kept.push_back({one.when.toUTC().toString(Qt::ISODateWithMs).toStdString(), one.program.toStdString(),
@@ -439,6 +495,13 @@ void SurveySession::goBackToRun(std::size_t run) {
     Q_EMIT told(MessageKind::Info,
                 tr("The settings of the run of %1 are back: process again to see its results.")
                     .arg(timeOfRun(runs_[run].when)));
+}
+
+void SurveySession::showRunAgain(std::size_t run) {
+    if (run >= runs_.size()) return;
+    if (const auto results = resultsOf(run)) return goBackTo(*results);
+    changeSettings(runs_[run].settings, tr("go back to an earlier run"));
+    process();
 }
 
 fs::path SurveySession::autosaveFile() const {
@@ -517,10 +580,18 @@ const RunSettings& SurveySession::shownSettings() const {
 QStringList SurveySession::commandArguments() const {
     QStringList arguments{"terrawalk", "process", text(path_.string())};
     const RunSettings& settings = shownSettings();
-    if (settings.assignments().empty() && !settings.tuned()) return arguments;
+    const bool changed = !settings.assignments().empty() || settings.tuned();
     // A file says it shorter, and alone can say how values were tuned.
-    if (settings == saved_) return arguments << "--config" << text(settingsFile().string());
-    for (const std::string& assignment : settings.assignments()) arguments << "--set" << text(assignment);
+    const bool by_file = changed && settings == saved_;
+    if (by_file) {
+        arguments << "--config" << text(settingsFile().string());
+    } else {
+        for (const std::string& assignment : settings.assignments()) arguments << "--set" << text(assignment);
+    }
+    const ReportLanguage language = reportLanguage();
+    if (language != (by_file ? saved_language_ : ReportLanguage::English))
+        arguments << "--set"
+                  << (language == ReportLanguage::Chinese ? "report.language=zh" : "report.language=en");
     return arguments;
 }
 

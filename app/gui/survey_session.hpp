@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/gui/background_job.hpp"
+#include "app/gui/kept_surfaces.hpp"
 #include "app/gui/run_settings.hpp"
 #include "app/gui/selection.hpp"
 #include "app/gui/view_state.hpp"
@@ -129,6 +130,15 @@ class SurveySession : public QObject {
     [[nodiscard]] std::optional<std::size_t> resultsOf(std::size_t run) const;
     /// Takes over the settings of one of runs(), undoably, and shows its results where they are still there.
     void goBackToRun(std::size_t run);
+    /// The same, and processes where they are not.
+    void showRunAgain(std::size_t run);
+    /// Surfaces of runs() on disk, beside the file that lists them.
+    [[nodiscard]] KeptSurfaces keptSurfaces() const;
+    /// Keeps the surfaces of runs whose results are here, and of those to come; or removes all of them.
+    void keepSurfaces(bool keep);
+    /// Compares the shown results with one of runs(), whose results are here or whose surface is kept.
+    void compareWithRun(std::size_t run);
+    [[nodiscard]] bool canCompareWith(std::size_t run) const;
 
     /// Arguments of the command that makes the results that are shown, or would be made now.
     [[nodiscard]] QStringList commandArguments() const;
@@ -152,6 +162,8 @@ class SurveySession : public QObject {
     bool writeSettings(const std::filesystem::path& file);
     void addTraces(const std::vector<TuneTrace>& traces);
     [[nodiscard]] const TuneTrace* traceInUse() const;
+    /// @param name  of the DEM in words; empty: its file's
+    void compareWith(const std::filesystem::path& dem, const QString& name);
     void takeChange(Result<HeightChange> change);
     void fail(const Error& error);
     void finishOpening(const std::filesystem::path& path, Survey survey, SurveyMap map);
@@ -174,6 +186,7 @@ class SurveySession : public QObject {
     std::filesystem::path path_;
     RunSettings settings_;
     RunSettings saved_;
+    ReportLanguage saved_language_ = ReportLanguage::English;  ///< in the file of what is saved
     std::shared_ptr<const Survey> survey_;
     std::shared_ptr<const SurveyMap> logged_map_;
     std::shared_ptr<const TuningData> tuning_ = std::make_shared<const TuningData>();

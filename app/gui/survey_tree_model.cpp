@@ -65,8 +65,6 @@ const RunReport* reportOf(const Products& products, const std::string& run) {
 
 QString sensorWords(EditedSensor sensor) {
     switch (sensor) {
-        case EditedSensor::All:
-            return SurveyTreeModel::tr("any reading");
         case EditedSensor::Gnss:
             return SurveyTreeModel::tr("GNSS");
         case EditedSensor::Barometer:
@@ -77,6 +75,8 @@ QString sensorWords(EditedSensor sensor) {
             return SurveyTreeModel::tr("attitude");
         case EditedSensor::Range:
             return SurveyTreeModel::tr("range");
+        case EditedSensor::All:
+            break;
     }
     return {};
 }
@@ -174,8 +174,10 @@ void SurveyTreeModel::addEdits(const SurveyEdits& edits) {
         addGroup(tr("Edits"), static_cast<qsizetype>(edits.stretches.size() + edits.lines.size()));
     for (std::size_t i = 0; i < edits.stretches.size(); ++i) {
         const ExcludedStretch& out = edits.stretches[i];
-        QStandardItem* made = entry(tr("%1 without %2").arg(text(out.run), sensorWords(out.sensor)),
-                                    StretchItem, QString::number(i));
+        const QString words = out.sensor == EditedSensor::All
+                                  ? tr("%1 left out").arg(text(out.run))
+                                  : tr("%1 without %2").arg(text(out.run), sensorWords(out.sensor));
+        QStandardItem* made = entry(words, StretchItem, QString::number(i));
         made->setIcon(icon("exclude"));
         group->appendRow({made, state(QString("%1–%2 s").arg(QString::number(out.from_s, 'f', 0),
                                                              QString::number(out.to_s, 'f', 0)))});
@@ -213,7 +215,7 @@ void SurveyTreeModel::addResults(const Products& products, const ViewChoice& sho
         const auto cells = static_cast<double>(sigma.measured + sigma.interpolated + sigma.extrapolated);
         if (cells > 0.0) {
             const double share = 100.0 * static_cast<double>(sigma.measured) / cells;
-            add(entry(tr("Source of heights"), ResultItem, "source"), "result",
+            add(entry(tr("Sources"), ResultItem, "source"), "result",
                 tr("%1 % measured").arg(std::lround(share)));
         }
     }
@@ -224,7 +226,7 @@ void SurveyTreeModel::addResults(const Products& products, const ViewChoice& sho
         known ? text(report.figures.front().value) : QString());
     add(entry(tr("Report"), ResultItem, "report"), "report", QString());
     if (products.terrace_edges.empty()) return;
-    QStandardItem* edges = entry(tr("Terrace edges"), EdgesItem, "edges");
+    QStandardItem* edges = entry(tr("Terraces"), EdgesItem, "edges");
     check(*edges, shown.edges);
     edges->setToolTip(tr("The box shows or hides them"));
     add(edges, "result", QString::number(products.terrace_edges.size()));

@@ -544,6 +544,9 @@ std::vector<Parameter> surfaceParameters() {
         number("report.vertical_class_m", 0, 10,
                "RMSE_V that the surface is tested for by the ASPRS standards; 0: none",
                TERRAWALK_FIELD(report.vertical_class_m)),
+        choice<ReportLanguage>(
+            "report.language", {{"en", ReportLanguage::English}, {"zh", ReportLanguage::Chinese}},
+            "of report.html and report.pdf: English or Simplified Chinese", TERRAWALK_FIELD(report.language)),
         integer<std::uint64_t>("seed", 0, std::numeric_limits<std::int64_t>::max(),
                                "of the confidence intervals in the report", TERRAWALK_FIELD(seed)),
         number("fusion.lasting.gnss_correlation_s", 1, 100000,
@@ -798,6 +801,7 @@ static_assert(sizeof(AukfOptions) == 168, "add the new option to aukfParameters(
 static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
 static_assert(sizeof(PointCleaningOptions) == 104, "add the new option to cleaningParameters()");
 static_assert(sizeof(SurfaceOptions) == 224, "add the new option to surfaceParameters()");
+static_assert(sizeof(ReportOptions) == 16, "add the new option to the report's parameters");
 
 const std::vector<Parameter>& parameters() {
     static const std::vector<Parameter> kParameters = [] {

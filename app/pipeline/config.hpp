@@ -40,6 +40,7 @@ struct SurfaceOptions {
 struct ReportOptions {
     double nearest_sample_limit_m = 3.0;  ///< a mark farther than this from any ground point is not compared
     double vertical_class_m = 0.0;        ///< RMSE_V that the surface is tested for; 0: none
+    ReportLanguage language = ReportLanguage::English;
 };
 
 /// Everything that decides the result of a run of the pipeline; one value, the same for every front end.

@@ -601,6 +601,7 @@ Result<Products> process(const Survey& survey, const PipelineConfig& config, Pro
     report.survey_name = survey.name;
     report.program_version = versionNumber();
     report.seed = config.seed;
+    report.language = config.report.language;
     report.settings = settingsReport(config, products.used);
     report.settings.push_back({"survey.crs", survey.crs.empty() ? "none" : survey.crs, projection->name()});
     report.settings.push_back(

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -45,6 +46,7 @@ struct Products {
 /// How the run was started, for the manifest.
 struct Provenance {
     std::vector<std::string> command;  ///< arguments that decide the result, program name first
+    std::optional<ReportLanguage> language = std::nullopt;  ///< where another is wanted than was configured
 };
 
 /// Writes dem.tif with its styles for QGIS, dem_uncertainty.tif, dem_density.tif, dem_source.tif,
@@ -57,7 +59,12 @@ struct Provenance {
 
 /// Writes report.pdf alone, the same bytes as writeProducts(). Errors: as there.
 [[nodiscard]] Result<void> writeReport(const Survey& survey, const Products& products,
-                                       const std::filesystem::path& file);
+                                       ReportLanguage language, const std::filesystem::path& file);
+
+/// Writes heights and, as "STEM_uncertainty", their standard errors where there are any: dem.tif and
+/// dem_uncertainty.tif under another name. Errors: as writeProducts().
+[[nodiscard]] Result<void> writeSurface(const Survey& survey, const Products& products,
+                                        const std::filesystem::path& file, std::stop_token stop);
 
 /// The few lines that a person reads first: the files that matter and how good the surface is.
 [[nodiscard]] std::string summaryText(const Products& products);

@@ -64,6 +64,8 @@ std::string dateOf(const Survey& survey) {
 
 std::string manifestText(const Survey& survey, const Products& products, const SurveyReport& report,
                          const Provenance& provenance, const std::vector<std::string>& files) {
+    PipelineConfig used = products.used;
+    used.report.language = report.language;
     ordered_json manifest{{"format", kOutputFormat},
                           {"program", programVersion()},
                           {"libraries", ordered_json::object()},
@@ -73,7 +75,7 @@ std::string manifestText(const Survey& survey, const Products& products, const S
                           {"frame", frameJson(survey)},
                           {"inputs", ordered_json::array()},
                           {"products", files},
-                          {"configuration", ordered_json::parse(toJson(products.used))}};
+                          {"configuration", ordered_json::parse(toJson(used))}};
     if (const std::string date = dateOf(survey); !date.empty()) manifest["survey_date"] = date;
     for (const auto& [library, version] : libraryVersions()) manifest["libraries"][library] = version;
     for (const InputFile& input : report.inputs) {
@@ -106,6 +108,20 @@ DemDescription describeDem(const Products& products, const Survey& survey) {
 
 using Writer = std::function<Result<void>(const fs::path&)>;
 
+// Of a file that holds standard errors: over what range they hang together.
+DemDescription describeErrors(const Products& products, const Survey& survey) {
+    DemDescription description = describeDem(products, survey);
+    description.metadata.emplace_back(kCorrelationRange,
+                                      fmt::format("{:.3f}", products.uncertainty->correlation_range_m));
+    return description;
+}
+
+DemDescription describeUncertainty(const Products& products, const Survey& survey) {
+    DemDescription description = describeErrors(products, survey);
+    description.quantity = "Uncertainty, 1 sigma";
+    return description;
+}
+
 void addUncertainty(const Products& products, const Survey& survey,
                     std::vector<std::pair<std::string, Writer>>& writers, const std::stop_token& stop) {
     const auto raster = [&, stop](std::string quantity, std::string unit, auto values, bool classes) {
@@ -126,15 +142,8 @@ void addUncertainty(const Products& products, const Survey& survey,
         return values;
     };
     const SurfaceUncertainty& u = *products.uncertainty;
-    const auto describeErrors = [&products, &survey, &u] {
-        DemDescription description = describeDem(products, survey);
-        description.metadata.emplace_back(kCorrelationRange, fmt::format("{:.3f}", u.correlation_range_m));
-        return description;
-    };
-    writers.emplace_back("dem_uncertainty.tif", [&products, &u, stop, describeErrors](const fs::path& f) {
-        DemDescription description = describeErrors();
-        description.quantity = "Uncertainty, 1 sigma";
-        return writeDem({products.dem.geometry, u.sigmas_m}, description, f, stop);
+    writers.emplace_back("dem_uncertainty.tif", [&, stop](const fs::path& f) {
+        return writeDem({products.dem.geometry, u.sigmas_m}, describeUncertainty(products, survey), f, stop);
     });
     writers.emplace_back(
         "dem_density.tif",
@@ -144,15 +153,28 @@ void addUncertainty(const Products& products, const Survey& survey,
                                                "Source: 1 measured, 2 interpolated, 3 extrapolated", "class",
                                                [&u, whereKnown] { return whereKnown(u.sources); }, true));
     if (products.used.surface.multiband) {
-        writers.emplace_back("dem_multiband.tif", [&, describeErrors](const fs::path& f) {
-            return writeDemWithUncertainty(products.dem, u.sigmas_m, describeErrors(), f, stop);
+        writers.emplace_back("dem_multiband.tif", [&](const fs::path& f) {
+            return writeDemWithUncertainty(products.dem, u.sigmas_m, describeErrors(products, survey), f, stop);
         });
     }
 }
 
-/// The report with what only its writers need to know: the hashes of the inputs.
-Result<SurveyReport> reportToWrite(const Survey& survey, const Products& products) {
+void setLanguage(SurveyReport& report, ReportLanguage language) {
+    report.language = language;
+    PipelineConfig config;
+    config.report.language = language;
+    const std::string text = settingText(config, "report.language");
+    for (UsedSetting& s : report.settings) {
+        if (s.key == "report.language")
+            s = {s.key, language == ReportLanguage::English ? "default" : text, text};
+    }
+}
+
+/// The report with what only its writers need to know: the hashes of the inputs, the language.
+Result<SurveyReport> reportToWrite(const Survey& survey, const Products& products,
+                                   std::optional<ReportLanguage> language) {
     SurveyReport report = products.report;
+    if (language) setLanguage(report, *language);
     auto inputs = describeInputs(survey);
     if (!inputs) return tl::unexpected(inputs.error());
     report.inputs = std::move(*inputs);
@@ -161,16 +183,29 @@ Result<SurveyReport> reportToWrite(const Survey& survey, const Products& product
 
 }  // namespace
 
-Result<void> writeReport(const Survey& survey, const Products& products, const fs::path& file) {
-    const auto report = reportToWrite(survey, products);
+Result<void> writeReport(const Survey& survey, const Products& products, ReportLanguage language,
+                         const fs::path& file) {
+    const auto report = reportToWrite(survey, products, language);
     if (!report) return tl::unexpected(report.error());
     return writeReportPdf(*report, file);
+}
+
+Result<void> writeSurface(const Survey& survey, const Products& products, const fs::path& file,
+                          std::stop_token stop) {
+    if (products.uncertainty) {
+        const fs::path beside =
+            file.parent_path() / (file.stem().string() + "_uncertainty" + file.extension().string());
+        auto written = writeDem({products.dem.geometry, products.uncertainty->sigmas_m},
+                                describeUncertainty(products, survey), beside, stop);
+        if (!written) return written;
+    }
+    return writeDem(products.dem, describeDem(products, survey), file, stop);
 }
 
 Result<void> writeProducts(const Survey& survey, const Products& products, const Provenance& provenance,
                            OutputFolder& folder, Progress& progress, std::stop_token stop) {
     progress.report(0.0, "hashing the inputs");
-    const auto hashed = reportToWrite(survey, products);
+    const auto hashed = reportToWrite(survey, products, provenance.language);
     if (!hashed) return tl::unexpected(hashed.error());
     const SurveyReport& report = *hashed;
 

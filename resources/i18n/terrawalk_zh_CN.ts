@@ -255,16 +255,8 @@
             <translation>标志点</translation>
         </message>
         <message>
-            <source>Track, tied to the mark</source>
-            <translation>轨迹，已与标志点约束</translation>
-        </message>
-        <message>
             <source>Track</source>
             <translation>轨迹</translation>
-        </message>
-        <message>
-            <source>Surface, mark used by the estimator</source>
-            <translation>曲面，标志点参与估计</translation>
         </message>
         <message>
             <source>Surface</source>
@@ -533,6 +525,22 @@
         <message>
             <source>other</source>
             <translation>其他</translation>
+        </message>
+        <message>
+            <source>Track, tied</source>
+            <translation>轨迹，受约束</translation>
+        </message>
+        <message>
+            <source>Surface, tied</source>
+            <translation>曲面，受约束</translation>
+        </message>
+        <message>
+            <source>Track, tied to the mark</source>
+            <translation>轨迹，已与标志点约束</translation>
+        </message>
+        <message>
+            <source>Surface, mark used by the estimator</source>
+            <translation>曲面，标志点参与估计</translation>
         </message>
     </context>
     <context>
@@ -953,7 +961,7 @@
         </message>
         <message>
             <source>no known mark to zero the barometer on: it is tied to the median GNSS height of the run</source>
-            <translation>没有可供气压计归零的标志点：取该个测线 GNSS 高程的中位数</translation>
+            <translation>没有可供气压计归零的标志点：取该条测线 GNSS 高程的中位数</translation>
         </message>
         <message>
             <source>no barometer in use: GNSS height is used whatever the fix</source>
@@ -1297,7 +1305,7 @@
         </message>
         <message>
             <source>zero point: mean GNSS position of the ground where %1 of %2 walks start, %3 m apart at most; say where it is if you know it better</source>
-            <translation>零点：%2 个测线中 %1 次起点处地面的 GNSS 平均位置，彼此相距至多 %3 m；如有更准确的坐标请填入</translation>
+            <translation>零点：%2 条测线中 %1 条起点处地面的 GNSS 平均位置，彼此相距至多 %3 m；如有更准确的坐标请填入</translation>
         </message>
         <message>
             <source>%1 is passed over: %2</source>
@@ -3156,6 +3164,1298 @@
             <translation>列 %1：%2：%3</translation>
         </message>
         <message>
+            <source>%1 – survey report</source>
+            <translation>%1 – 测量报告</translation>
+        </message>
+        <message>
+            <source>Unnamed survey</source>
+            <translation>未命名的测量</translation>
+        </message>
+        <message>
+            <source>Terrain survey: what was made and how far to trust it. Terrawalk %1.</source>
+            <translation>地形测量：成果及其可信程度。Terrawalk %1。</translation>
+        </message>
+        <message>
+            <source>Map</source>
+            <translation>地图</translation>
+        </message>
+        <message>
+            <source>Errors</source>
+            <translation>误差</translation>
+        </message>
+        <message>
+            <source>Accuracy</source>
+            <translation>精度</translation>
+        </message>
+        <message>
+            <source>Runs</source>
+            <translation>测线</translation>
+        </message>
+        <message>
+            <source>Sensors</source>
+            <translation>传感器</translation>
+        </message>
+        <message>
+            <source>Record</source>
+            <translation>处理记录</translation>
+        </message>
+        <message>
+            <source>What could not be checked</source>
+            <translation>未能检核的内容</translation>
+        </message>
+        <message>
+            <source>Nothing that the program knows of.</source>
+            <translation>就程序所知，没有。</translation>
+        </message>
+        <message>
+            <source>Warnings</source>
+            <translation>警告</translation>
+        </message>
+        <message>
+            <source>This machine has no font for Chinese, so this file is in English; report.html is in Chinese. On Debian install fonts-wqy-microhei.</source>
+            <translation>本机没有中文字体，因此本文件为英文；report.html 为中文。在 Debian 上请安装 fonts-wqy-microhei。</translation>
+        </message>
+        <message>
+            <source>Map of the walk</source>
+            <translation>行走地图</translation>
+        </message>
+        <message>
+            <source>Neither a track nor a mark has a position to draw.</source>
+            <translation>没有可绘制位置的轨迹或标志点。</translation>
+        </message>
+        <message>
+            <source>Local frame, both axes to one scale.</source>
+            <translation>局部坐标系，两轴比例相同。</translation>
+        </message>
+        <message>
+            <source>Local frame, both axes to one scale. Bars at the marks: height error of the %1.</source>
+            <translation>局部坐标系，两轴比例相同。标志点处的竖条：高程误差（%1）。</translation>
+        </message>
+        <message>
+            <source>ground below the array</source>
+            <translation>阵列下方地面</translation>
+        </message>
+        <message>
+            <source>Errors at the marks</source>
+            <translation>标志点处的误差</translation>
+        </message>
+        <message>
+            <source>Height of the surface at each mark less the mark's own: made from the sensors as they are, and after fusion.</source>
+            <translation>各标志点处曲面高程减标志点高程：用传感器原始数据生成的，以及融合后的。</translation>
+        </message>
+        <message>
+            <source>Height of the nearest ground point less the mark's own, before and after fusion.</source>
+            <translation>最近地面点高程减标志点高程，融合前后。</translation>
+        </message>
+        <message>
+            <source>Position below the array less the mark, seen from above.</source>
+            <translation>阵列下方位置减标志点位置，俯视。</translation>
+        </message>
+        <message>
+            <source>Height error of the %1 at %2 marks. The upright line is zero.</source>
+            <translation>%2点处的高程误差（%1）。竖线为零。</translation>
+        </message>
+        <message>
+            <source>Fewer than five comparisons: a histogram would show nothing.</source>
+            <translation>比较不足五次：直方图没有意义。</translation>
+        </message>
+        <message>
+            <source>Ground height below the array less the mark's, at each stand on a mark.</source>
+            <translation>每次在标志点上静站时，阵列下方地面高程减标志点高程。</translation>
+        </message>
+        <message>
+            <source>There is nothing to draw: no mark was compared with the product.</source>
+            <translation>没有可绘制的内容：没有标志点与成果比较。</translation>
+        </message>
+        <message>
+            <source>Marks</source>
+            <translation>标志点数</translation>
+        </message>
+        <message>
+            <source>Mean</source>
+            <translation>平均值</translation>
+        </message>
+        <message>
+            <source>SD</source>
+            <translation>标准差</translation>
+        </message>
+        <message>
+            <source>95 % interval of RMSE</source>
+            <translation>RMSE 的 95 % 区间</translation>
+        </message>
+        <message>
+            <source>Largest</source>
+            <translation>最大值</translation>
+        </message>
+        <message>
+            <source>Median</source>
+            <translation>中位数</translation>
+        </message>
+        <message>
+            <source>95 % interval</source>
+            <translation>95 % 区间</translation>
+        </message>
+        <message>
+            <source>68.3 % of |d| below</source>
+            <translation>68.3 % 的 |d| 小于</translation>
+        </message>
+        <message>
+            <source>95 % of |d| below</source>
+            <translation>95 % 的 |d| 小于</translation>
+        </message>
+        <message>
+            <source>Compared</source>
+            <translation>比较对象</translation>
+        </message>
+        <message>
+            <source>Axis</source>
+            <translation>轴</translation>
+        </message>
+        <message>
+            <source>east</source>
+            <translation>东</translation>
+        </message>
+        <message>
+            <source>north</source>
+            <translation>北</translation>
+        </message>
+        <message>
+            <source>up</source>
+            <translation>高程</translation>
+        </message>
+        <message>
+            <source>horizontal</source>
+            <translation>平面</translation>
+        </message>
+        <message>
+            <source>By the ground at the check marks</source>
+            <translation>按检核点处的地面分类</translation>
+        </message>
+        <message>
+            <source>Height errors of the surface. Slopes are its own, over a metre; 10 % is the limit that the ASPRS standard sets for check marks.</source>
+            <translation>曲面的高程误差。坡度由曲面在一米范围内求得；10 % 是 ASPRS 标准对检核点规定的限值。</translation>
+        </message>
+        <message>
+            <source>Ground</source>
+            <translation>地面</translation>
+        </message>
+        <message>
+            <source>tread, slope below 10 %</source>
+            <translation>台面，坡度小于 10 %</translation>
+        </message>
+        <message>
+            <source>slope of 10 to 30 %</source>
+            <translation>坡度 10 至 30 %</translation>
+        </message>
+        <message>
+            <source>riser, slope of 30 % and more</source>
+            <translation>田坎，坡度 30 % 及以上</translation>
+        </message>
+        <message>
+            <source>open</source>
+            <translation>开阔</translation>
+        </message>
+        <message>
+            <source>vegetated</source>
+            <translation>植被</translation>
+        </message>
+        <message>
+            <source>Accuracy at 95 % confidence (NSSDA)</source>
+            <translation>95 % 置信水平下的精度（NSSDA）</translation>
+        </message>
+        <message>
+            <source>FGDC-STD-007.3-1998, errors taken for normal and unbiased: vertical 1.9600 RMSE; horizontal 1.7308 times the RMSE of the distance, or 2.4477 times the mean RMSE of both axes where they differ; nothing where one is below 0.6 of the other. The standard asks for 20 check marks.</source>
+            <translation>FGDC-STD-007.3-1998，假定误差服从正态分布且无偏：高程为 RMSE 的 1.9600 倍；平面为距离 RMSE 的 1.7308 倍，两轴不同时为两轴 RMSE 平均值的 2.4477 倍；一轴小于另一轴的 0.6 倍时不给出。该标准要求 20 个检核点。</translation>
+        </message>
+        <message>
+            <source>Stage</source>
+            <translation>阶段</translation>
+        </message>
+        <message>
+            <source>Vertical</source>
+            <translation>高程</translation>
+        </message>
+        <message>
+            <source>Horizontal</source>
+            <translation>平面</translation>
+        </message>
+        <message>
+            <source>no, used</source>
+            <translation>否，已用于估计</translation>
+        </message>
+        <message>
+            <source>yes, a possible blunder</source>
+            <translation>是，可能是粗差</translation>
+        </message>
+        <message>
+            <source>yes</source>
+            <translation>是</translation>
+        </message>
+        <message>
+            <source>Mark</source>
+            <translation>标志点</translation>
+        </message>
+        <message>
+            <source>Role</source>
+            <translation>类型</translation>
+        </message>
+        <message>
+            <source>Run</source>
+            <translation>测线</translation>
+        </message>
+        <message>
+            <source>East [m]</source>
+            <translation>东 [m]</translation>
+        </message>
+        <message>
+            <source>North [m]</source>
+            <translation>北 [m]</translation>
+        </message>
+        <message>
+            <source>Up [m]</source>
+            <translation>高程 [m]</translation>
+        </message>
+        <message>
+            <source>Predicted sigma up [m]</source>
+            <translation>预测高程 σ [m]</translation>
+        </message>
+        <message>
+            <source>Up in sigmas</source>
+            <translation>高程差与 σ 之比</translation>
+        </message>
+        <message>
+            <source>Slope [%]</source>
+            <translation>坡度 [%]</translation>
+        </message>
+        <message>
+            <source>Cover</source>
+            <translation>地表</translation>
+        </message>
+        <message>
+            <source>Counted</source>
+            <translation>计入</translation>
+        </message>
+        <message>
+            <source>No mark was compared with the product in a way that counts, so there are no figures.</source>
+            <translation>没有标志点以可计入的方式与成果比较，因此没有数值。</translation>
+        </message>
+        <message>
+            <source>All in metres; product less mark. SD divides by n − 1. NMAD is 1.4826 times the median distance from the median: what the SD would be without outliers. |d| is the size of a difference. Intervals come from redrawing the marks.</source>
+            <translation>单位均为米；成果减标志点。标准差以 n − 1 为除数。NMAD 为与中位数之差绝对值的中位数的 1.4826 倍，即没有粗差时的标准差。|d| 为差值的绝对值。区间由对标志点重抽样得到。</translation>
+        </message>
+        <message>
+            <source>Check marks: used for nothing but these figures</source>
+            <translation>检核点：只用于这些数值</translation>
+        </message>
+        <message>
+            <source>No check mark was compared.</source>
+            <translation>没有检核点参与比较。</translation>
+        </message>
+        <message>
+            <source>Control marks: open to alignment and tuning, so they prove less</source>
+            <translation>控制点：可能用于对准和调参，因此说服力较弱</translation>
+        </message>
+        <message>
+            <source>All comparisons, mark by mark: %1</source>
+            <translation>逐点列出全部比较：%1</translation>
+        </message>
+        <message>
+            <source>Adjustment of all runs</source>
+            <translation>全部测线整体平差</translation>
+        </message>
+        <message>
+            <source>Unknowns</source>
+            <translation>未知数</translation>
+        </message>
+        <message>
+            <source>Crossovers</source>
+            <translation>交叉点</translation>
+        </message>
+        <message>
+            <source>%1 pairs of passes over the same ground</source>
+            <translation>%1 对重复经过同一地面的交叉</translation>
+        </message>
+        <message>
+            <source>Their heights differ by</source>
+            <translation>交叉点高程互差</translation>
+        </message>
+        <message>
+            <source>%1 m RMS after the filter, %2 m after the adjustment</source>
+            <translation>滤波后 %1 m（RMS），平差后 %2 m</translation>
+        </message>
+        <message>
+            <source>Rounds</source>
+            <translation>迭代次数</translation>
+        </message>
+        <message>
+            <source>%1, the last of which moved a track by %2 m RMS</source>
+            <translation>%1，最后一次使轨迹移动 %2 m（RMS）</translation>
+        </message>
+        <message>
+            <source>Their test of the sigmas</source>
+            <translation>用交叉点检验 σ</translation>
+        </message>
+        <message>
+            <source>%1 of %2 differences lie within 1.96 predicted sigmas, the mean square of difference over sigma is %3; before crossovers were used</source>
+            <translation>%2 个互差中 %1 个在预测的 1.96 σ 以内，互差与 σ 之比的均方为 %3；采用交叉点之前</translation>
+        </message>
+        <message>
+            <source>Crossovers left out of the adjustment</source>
+            <translation>未参与平差的交叉点</translation>
+        </message>
+        <message>
+            <source>%1; their heights differ by %2 m RMS after the filter, %3 m after the adjustment</source>
+            <translation>%1 个；高程互差滤波后 %2 m（RMS），平差后 %3 m</translation>
+        </message>
+        <message>
+            <source>Variance of heights</source>
+            <translation>高程方差</translation>
+        </message>
+        <message>
+            <source>kept: no crossovers to test it</source>
+            <translation>保持不变：没有可检验的交叉点</translation>
+        </message>
+        <message>
+            <source>multiplied by %1, see the crossovers' test</source>
+            <translation>乘以 %1，见交叉点检验</translation>
+        </message>
+        <message>
+            <source>Variance of the plan</source>
+            <translation>平面方差</translation>
+        </message>
+        <message>
+            <source>kept: GNSS drifts as its noise says</source>
+            <translation>保持不变：GNSS 漂移与其噪声相符</translation>
+        </message>
+        <message>
+            <source>multiplied by %1: GNSS drifts by more than its robust noise says</source>
+            <translation>乘以 %1：GNSS 漂移大于其稳健噪声</translation>
+        </message>
+        <message>
+            <source>Source of noise</source>
+            <translation>噪声来源</translation>
+        </message>
+        <message>
+            <source>Rows</source>
+            <translation>方程数</translation>
+        </message>
+        <message>
+            <source>Sigma times</source>
+            <translation>σ 倍数</translation>
+        </message>
+        <message>
+            <source>Down-weighted</source>
+            <translation>降权</translation>
+        </message>
+        <message>
+            <source>Sigma times: by what factor the survey's own residuals say that a sigma of the settings is off. 1 where it was not estimated.</source>
+            <translation>σ 倍数：由本次测量自身残差得出的、设置中 σ 应乘的倍数。未估计时为 1。</translation>
+        </message>
+        <message>
+            <source>prior</source>
+            <translation>先验</translation>
+        </message>
+        <message>
+            <source>mark ties</source>
+            <translation>标志点约束</translation>
+        </message>
+        <message>
+            <source>plan</source>
+            <translation>平面</translation>
+        </message>
+        <message>
+            <source>height</source>
+            <translation>高程</translation>
+        </message>
+        <message>
+            <source>GNSS noise</source>
+            <translation>GNSS 噪声</translation>
+        </message>
+        <message>
+            <source>GNSS drift</source>
+            <translation>GNSS 漂移</translation>
+        </message>
+        <message>
+            <source>GNSS bias of a run</source>
+            <translation>每条测线的 GNSS 偏差</translation>
+        </message>
+        <message>
+            <source>barometer noise</source>
+            <translation>气压计噪声</translation>
+        </message>
+        <message>
+            <source>barometer drift</source>
+            <translation>气压计漂移</translation>
+        </message>
+        <message>
+            <source>barometer gusts</source>
+            <translation>阵风对气压计的影响</translation>
+        </message>
+        <message>
+            <source>optical flow bridged</source>
+            <translation>光流补缺</translation>
+        </message>
+        <message>
+            <source>compass drift</source>
+            <translation>罗盘漂移</translation>
+        </message>
+        <message>
+            <source>compass noise</source>
+            <translation>罗盘噪声</translation>
+        </message>
+        <message>
+            <source>gyro</source>
+            <translation>陀螺仪</translation>
+        </message>
+        <message>
+            <source>walk</source>
+            <translation>行走</translation>
+        </message>
+        <message>
+            <source>ground climb</source>
+            <translation>地面起伏</translation>
+        </message>
+        <message>
+            <source>ground roughness</source>
+            <translation>地面粗糙度</translation>
+        </message>
+        <message>
+            <source>climb</source>
+            <translation>起伏</translation>
+        </message>
+        <message>
+            <source>accelerometer bias</source>
+            <translation>加速度计零偏</translation>
+        </message>
+        <message>
+            <source>crossovers</source>
+            <translation>交叉点</translation>
+        </message>
+        <message>
+            <source>passes over marks</source>
+            <translation>经过标志点</translation>
+        </message>
+        <message>
+            <source>heading</source>
+            <translation>航向</translation>
+        </message>
+        <message>
+            <source>%1, %2 m in all, median step %3 m, place known to %4 m (1 sigma)</source>
+            <translation>%1 条，共 %2 m，落差中位数 %3 m，位置精度 %4 m（1 σ）</translation>
+        </message>
+        <message>
+            <source>Method</source>
+            <translation>方法</translation>
+        </message>
+        <message>
+            <source>Method asked for, and used</source>
+            <translation>要求的方法和采用的方法</translation>
+        </message>
+        <message>
+            <source>Breaklines</source>
+            <translation>断裂线</translation>
+        </message>
+        <message>
+            <source>Terrace edges found</source>
+            <translation>找到的梯田边缘</translation>
+        </message>
+        <message>
+            <source>Note</source>
+            <translation>说明</translation>
+        </message>
+        <message>
+            <source>Ground points</source>
+            <translation>地面点</translation>
+        </message>
+        <message>
+            <source>Triangles</source>
+            <translation>三角形</translation>
+        </message>
+        <message>
+            <source>%1, no edge longer than %2 m in plan</source>
+            <translation>%1 个，平面边长不超过 %2 m</translation>
+        </message>
+        <message>
+            <source>Area in plan</source>
+            <translation>平面面积</translation>
+        </message>
+        <message>
+            <source>Grid</source>
+            <translation>格网</translation>
+        </message>
+        <message>
+            <source>%1 × %2 cells of %3 m</source>
+            <translation>%1 × %2 格，格网间距 %3 m</translation>
+        </message>
+        <message>
+            <source>Cells with a height</source>
+            <translation>有高程的格网</translation>
+        </message>
+        <message>
+            <source>%1 (%2); the others are left empty, nothing is invented outside the walk</source>
+            <translation>%1（%2）；其余留空，行走范围之外不作臆造</translation>
+        </message>
+        <message>
+            <source>Standard error of a height</source>
+            <translation>高程的标准差</translation>
+        </message>
+        <message>
+            <source>%1 m in the middle, below %2 m in 95 % of the cells</source>
+            <translation>中位数 %1 m，95 % 的格网小于 %2 m</translation>
+        </message>
+        <message>
+            <source>Cells</source>
+            <translation>格网来源</translation>
+        </message>
+        <message>
+            <source>%1 measured, %2 interpolated, %3 extrapolated (farther than %4 m from a point)</source>
+            <translation>实测 %1，内插 %2，外推 %3（距点超过 %4 m）</translation>
+        </message>
+        <message>
+            <source>Interpolation</source>
+            <translation>插值</translation>
+        </message>
+        <message>
+            <source>%1 heights foretold from the points around them, %2 within 1.96 sigma</source>
+            <translation>由周围点预测 %1 个高程，%2 在 1.96 σ 以内</translation>
+        </message>
+        <message>
+            <source>the method’s own variance, scaled</source>
+            <translation>方法自身的方差，经缩放</translation>
+        </message>
+        <message>
+            <source>Variogram</source>
+            <translation>变异函数</translation>
+        </message>
+        <message>
+            <source>%1, nugget %2, sill %3 at %4, from %5 pairs of points</source>
+            <translation>%1，块金 %2，基台 %3，变程 %4，由 %5 对点求得</translation>
+        </message>
+        <message>
+            <source>spherical</source>
+            <translation>球状模型</translation>
+        </message>
+        <message>
+            <source>exponential</source>
+            <translation>指数模型</translation>
+        </message>
+        <message>
+            <source>power %1</source>
+            <translation>幂模型 %1</translation>
+        </message>
+        <message>
+            <source>Heights</source>
+            <translation>高程</translation>
+        </message>
+        <message>
+            <source>%1 m to %2 m</source>
+            <translation>%1 m 至 %2 m</translation>
+        </message>
+        <message>
+            <source>Map frame</source>
+            <translation>地图坐标系</translation>
+        </message>
+        <message>
+            <source>Terrawalk local frame, zero point %1</source>
+            <translation>Terrawalk 局部坐标系，零点 %1</translation>
+        </message>
+        <message>
+            <source>Heights refer to</source>
+            <translation>高程基准</translation>
+        </message>
+        <message>
+            <source>Ways of interpolating, the best first, by how well points that were left out are foretold from the others (seed %1). Breaklines and edges take no part.</source>
+            <translation>插值方法，按由其余点预测留出点的优劣排列，最优在前（随机种子 %1）。断裂线和边缘不参与。</translation>
+        </message>
+        <message>
+            <source>What the laser crossed is free, where it ended is occupied; of the rest nothing is known. Files: occupancy.bt and occupancy.ot for OctoMap, free_height.tif, and obstacle_height.tif where there is any obstacle.</source>
+            <translation>激光穿过之处为空闲，终止之处为占用；其余未知。文件：OctoMap 用的 occupancy.bt 和 occupancy.ot，free_height.tif，有障碍物时还有 obstacle_height.tif。</translation>
+        </message>
+        <message>
+            <source>Ground layer</source>
+            <translation>地面层</translation>
+        </message>
+        <message>
+            <source>what lies lower than %1 m above the terrain model counts as ground; looked up to %2 m</source>
+            <translation>地形模型以上 %1 m 以内算作地面；向上查看至 %2 m</translation>
+        </message>
+        <message>
+            <source>%1 and %2 more</source>
+            <translation>%1 等，另有 %2 行</translation>
+        </message>
+        <message>
+            <source>Fix</source>
+            <translation>定位解</translation>
+        </message>
+        <message>
+            <source>RTK fixed</source>
+            <translation>RTK 固定解</translation>
+        </message>
+        <message>
+            <source>RTK float</source>
+            <translation>RTK 浮点解</translation>
+        </message>
+        <message>
+            <source>DGNSS</source>
+            <translation>差分解</translation>
+        </message>
+        <message>
+            <source>single</source>
+            <translation>单点解</translation>
+        </message>
+        <message>
+            <source>code %1</source>
+            <translation>代码 %1</translation>
+        </message>
+        <message>
+            <source>no code</source>
+            <translation>无代码</translation>
+        </message>
+        <message>
+            <source>area</source>
+            <translation>区域</translation>
+        </message>
+        <message>
+            <source>fixed-point</source>
+            <translation>定点</translation>
+        </message>
+        <message>
+            <source>Kind</source>
+            <translation>类型</translation>
+        </message>
+        <message>
+            <source>Rows read</source>
+            <translation>读取行数</translation>
+        </message>
+        <message>
+            <source>Repeated</source>
+            <translation>重复</translation>
+        </message>
+        <message>
+            <source>Late</source>
+            <translation>乱序</translation>
+        </message>
+        <message>
+            <source>Epochs</source>
+            <translation>历元</translation>
+        </message>
+        <message>
+            <source>Duration [s]</source>
+            <translation>时长 [s]</translation>
+        </message>
+        <message>
+            <source>Longest gap [s]</source>
+            <translation>最长间断 [s]</translation>
+        </message>
+        <message>
+            <source>Distance [m]</source>
+            <translation>距离 [m]</translation>
+        </message>
+        <message>
+            <source>rows with a repeated time dropped, lines %1.</source>
+            <translation>时间重复的行已舍去，行号 %1。</translation>
+        </message>
+        <message>
+            <source>late rows put in order, lines %1.</source>
+            <translation>乱序的行已排序，行号 %1。</translation>
+        </message>
+        <message>
+            <source>the last row, line %1, is cut off and was dropped.</source>
+            <translation>最后一行（第 %1 行）不完整，已舍去。</translation>
+        </message>
+        <message>
+            <source>The survey has no runs.</source>
+            <translation>本次测量没有测线。</translation>
+        </message>
+        <message>
+            <source>Logs</source>
+            <translation>记录文件</translation>
+        </message>
+        <message>
+            <source>What the reader and the estimator met, run by run</source>
+            <translation>读取和估计时遇到的情况，逐条测线</translation>
+        </message>
+        <message>
+            <source>Used points make the surface; the others are kept with their reason.</source>
+            <translation>采用的点构成曲面；其余的点连同原因保留。</translation>
+        </message>
+        <message>
+            <source>Use of the sensors</source>
+            <translation>传感器的使用</translation>
+        </message>
+        <message>
+            <source>No sensor was offered to an estimator.</source>
+            <translation>没有向估计器提供传感器数据。</translation>
+        </message>
+        <message>
+            <source>Sensor</source>
+            <translation>传感器</translation>
+        </message>
+        <message>
+            <source>Offered</source>
+            <translation>提供</translation>
+        </message>
+        <message>
+            <source>Used share</source>
+            <translation>采用率</translation>
+        </message>
+        <message>
+            <source>Of these down-weighted</source>
+            <translation>其中降权</translation>
+        </message>
+        <message>
+            <source>Rejected</source>
+            <translation>拒绝</translation>
+        </message>
+        <message>
+            <source>Reasons</source>
+            <translation>原因</translation>
+        </message>
+        <message>
+            <source>Measurements of all runs together: offered = used + rejected.</source>
+            <translation>全部测线的观测合计：提供 = 采用 + 拒绝。</translation>
+        </message>
+        <message>
+            <source>Run by run</source>
+            <translation>逐条测线</translation>
+        </message>
+        <message>
+            <source>beyond gate</source>
+            <translation>超出门限</translation>
+        </message>
+        <message>
+            <source>beyond the greatest noise</source>
+            <translation>超出最大噪声</translation>
+        </message>
+        <message>
+            <source>no attitude</source>
+            <translation>没有姿态</translation>
+        </message>
+        <message>
+            <source>one component missing</source>
+            <translation>缺一个分量</translation>
+        </message>
+        <message>
+            <source>too slow</source>
+            <translation>速度太慢</translation>
+        </message>
+        <message>
+            <source>Tuning</source>
+            <translation>调参</translation>
+        </message>
+        <message>
+            <source>Tuned values</source>
+            <translation>调参结果</translation>
+        </message>
+        <message>
+            <source>used for this product</source>
+            <translation>已用于本成果</translation>
+        </message>
+        <message>
+            <source>not used</source>
+            <translation>未采用</translation>
+        </message>
+        <message>
+            <source>Tuned on the survey</source>
+            <translation>调参所用测量</translation>
+        </message>
+        <message>
+            <source>By</source>
+            <translation>程序</translation>
+        </message>
+        <message>
+            <source>Search</source>
+            <translation>搜索</translation>
+        </message>
+        <message>
+            <source>%1, population %2, %3 iterations, seed %4</source>
+            <translation>%1，种群 %2，迭代 %3 次，随机种子 %4</translation>
+        </message>
+        <message>
+            <source>Evaluations, in all</source>
+            <translation>评估总次数</translation>
+        </message>
+        <message>
+            <source>Loss</source>
+            <translation>损失</translation>
+        </message>
+        <message>
+            <source>Loss before and after</source>
+            <translation>前后损失</translation>
+        </message>
+        <message>
+            <source>The same on parts left out of the tuning</source>
+            <translation>在未参与调参的部分上</translation>
+        </message>
+        <message>
+            <source>Marks tuned on</source>
+            <translation>调参所用标志点</translation>
+        </message>
+        <message>
+            <source>Setting</source>
+            <translation>设置项</translation>
+        </message>
+        <message>
+            <source>Requested</source>
+            <translation>要求值</translation>
+        </message>
+        <message>
+            <source>File</source>
+            <translation>文件</translation>
+        </message>
+        <message>
+            <source>Bytes</source>
+            <translation>字节</translation>
+        </message>
+        <message>
+            <source>Program</source>
+            <translation>程序</translation>
+        </message>
+        <message>
+            <source>Method of fusion</source>
+            <translation>融合方法</translation>
+        </message>
+        <message>
+            <source>Seed of random numbers</source>
+            <translation>随机种子</translation>
+        </message>
+        <message>
+            <source>Settings: %1 in all, %2 other than default</source>
+            <translation>设置：共 %1 项，%2 项与默认值不同</translation>
+        </message>
+        <message>
+            <source>Input files: %1</source>
+            <translation>输入文件：%1</translation>
+        </message>
+        <message>
+            <source>Made by Terrawalk from the files listed above. The same figures stand in report.json, the comparisons in residuals.csv.</source>
+            <translation>由 Terrawalk 根据上列文件生成。同样的数值见 report.json，各项比较见 residuals.csv。</translation>
+        </message>
+        <message>
+            <source>raw sensors, no fusion</source>
+            <translation>传感器原始数据，不融合</translation>
+        </message>
+        <message>
+            <source>9-state unscented Kalman filter</source>
+            <translation>9 状态无迹卡尔曼滤波</translation>
+        </message>
+        <message>
+            <source>9-state unscented Kalman filter, Rauch-Tung-Striebel smoothed</source>
+            <translation>9 状态无迹卡尔曼滤波，Rauch-Tung-Striebel 平滑</translation>
+        </message>
+        <message>
+            <source>9-state %1 as published (Xie et al. 2024), forward only</source>
+            <translation>9 状态 %1，按发表的方法（Xie et al. 2024），仅前向</translation>
+        </message>
+        <message>
+            <source>adaptive unscented Kalman filter with error states, then joint adjustment of all runs with their crossovers</source>
+            <translation>带误差状态的自适应无迹卡尔曼滤波，再对全部测线连同交叉点整体平差</translation>
+        </message>
+        <message>
+            <source>adaptive unscented Kalman filter with error states, then crossovers in a second stage (a preview)</source>
+            <translation>带误差状态的自适应无迹卡尔曼滤波，第二阶段采用交叉点（预览）</translation>
+        </message>
+        <message>
+            <source>Delaunay triangulation, linear interpolation at cell centres</source>
+            <translation>Delaunay 三角剖分，格网中心线性插值</translation>
+        </message>
+        <message>
+            <source>constrained Delaunay triangulation, linear interpolation at cell centres</source>
+            <translation>约束 Delaunay 三角剖分，格网中心线性插值</translation>
+        </message>
+        <message>
+            <source>%1 at cell centres, within the Delaunay triangulation</source>
+            <translation>格网中心 %1 插值，限于 Delaunay 三角网内</translation>
+        </message>
+        <message>
+            <source>%1 at cell centres, within the constrained Delaunay triangulation</source>
+            <translation>格网中心 %1 插值，限于约束 Delaunay 三角网内</translation>
+        </message>
+        <message>
+            <source>Map of tracks and marks</source>
+            <translation>轨迹和标志点地图</translation>
+        </message>
+        <message>
+            <source>Height error at each mark</source>
+            <translation>各标志点处的高程误差</translation>
+        </message>
+        <message>
+            <source>Height error below the array at each stand on a mark</source>
+            <translation>每次在标志点上静站时阵列下方的高程误差</translation>
+        </message>
+        <message>
+            <source>Error in plan at each stand on a mark</source>
+            <translation>每次在标志点上静站时的平面误差</translation>
+        </message>
+        <message>
+            <source>Histogram of height errors</source>
+            <translation>高程误差直方图</translation>
+        </message>
+        <message>
+            <source>%1 m, height of the surface</source>
+            <translation>%1 m，曲面高程</translation>
+        </message>
+        <message>
+            <source>east of the zero point [m]</source>
+            <translation>零点以东 [m]</translation>
+        </message>
+        <message>
+            <source>north of the zero point [m]</source>
+            <translation>零点以北 [m]</translation>
+        </message>
+        <message>
+            <source>check mark</source>
+            <translation>检核点</translation>
+        </message>
+        <message>
+            <source>control mark</source>
+            <translation>控制点</translation>
+        </message>
+        <message>
+            <source>%1 m too high, too low</source>
+            <translation>偏高、偏低 %1 m</translation>
+        </message>
+        <message>
+            <source>%1 m too high, too low (longest cut)</source>
+            <translation>偏高、偏低 %1 m（最长者截断）</translation>
+        </message>
+        <message>
+            <source>1 name left out for room</source>
+            <translation>1 个点名因空间不足未注</translation>
+        </message>
+        <message>
+            <source>%1 names left out for room</source>
+            <translation>%1 个点名因空间不足未注</translation>
+        </message>
+        <message>
+            <source>product − mark [m]</source>
+            <translation>成果 − 标志点 [m]</translation>
+        </message>
+        <message>
+            <source>control marks</source>
+            <translation>控制点</translation>
+        </message>
+        <message>
+            <source>control marks →</source>
+            <translation>控制点 →</translation>
+        </message>
+        <message>
+            <source>%1 beyond the frame △</source>
+            <translation>%1 个超出图框 △</translation>
+        </message>
+        <message>
+            <source>%1 beyond the last ring, drawn at the rim</source>
+            <translation>%1 个超出最外圈，画在边缘</translation>
+        </message>
+        <message>
+            <source>%1, %2: %3 east, %4 north</source>
+            <translation>%1，%2：东 %3，北 %4</translation>
+        </message>
+        <message>
+            <source>%1 to %2 m: %3</source>
+            <translation>%1 至 %2 m：%3</translation>
+        </message>
+        <message>
+            <source>%1 heights at %2 marks</source>
+            <translation>%2点处 %1 个高程</translation>
+        </message>
+        <message>
+            <source>%1 heights at %2 marks; normal curve of the same mean and SD</source>
+            <translation>%2点处 %1 个高程；平均值和标准差相同的正态曲线</translation>
+        </message>
+        <message>
+            <source>GNSS stands off by up to %1 m from the positions around it, %2 times, for %3 s in all: wrong fixes or reflected signals, which count by the size of their jump</source>
+            <translation>GNSS 与前后位置相差最大 %1 m，共 %2 次，合计 %3 s：错误的定位解或反射信号，按跳变大小降权</translation>
+        </message>
+        <message>
+            <source>Heights are metres above the plane through the zero point (%1) that is level there; they are not reduced to a geoid.</source>
+            <translation>高程为零点（%1）处水平面以上的米数；未归算到大地水准面。</translation>
+        </message>
+        <message>
+            <source>Heights are metres above the WGS 84 ellipsoid.</source>
+            <translation>高程为 WGS 84 椭球面以上的米数。</translation>
+        </message>
+        <message>
+            <source>%1 more marks are off as far; the table of differences names them.</source>
+            <translation>另有 %1 个标志点偏差同样大；见差值表。</translation>
+        </message>
+        <message>
+            <source>no texture</source>
+            <translation>没有纹理</translation>
+        </message>
+        <message>
+            <source>no fix</source>
+            <translation>没有定位解</translation>
+        </message>
+        <message>
+            <source>no RTK fix</source>
+            <translation>没有 RTK 解</translation>
+        </message>
+        <message>
+            <source>fix code that names no satellite fix</source>
+            <translation>定位代码不表示卫星解</translation>
+        </message>
+        <message>
+            <source>no roll</source>
+            <translation>没有横滚角</translation>
+        </message>
+        <message>
+            <source>no pitch</source>
+            <translation>没有俯仰角</translation>
+        </message>
+        <message>
+            <source>no heading</source>
+            <translation>没有航向</translation>
+        </message>
+        <message>
+            <source>the array is taken to be level</source>
+            <translation>假定阵列水平</translation>
+        </message>
+        <message>
+            <source>optical flow and horizontal acceleration cannot be used</source>
+            <translation>不能使用光流和水平加速度</translation>
+        </message>
+        <message>
+            <source>roll</source>
+            <translation>横滚角</translation>
+        </message>
+        <message>
+            <source>pitch</source>
+            <translation>俯仰角</translation>
+        </message>
+        <message>
+            <source>%1 of its fields are no numbers</source>
+            <translation>其中 %1 个字段不是数字</translation>
+        </message>
+        <message>
+            <source>%1 reads the same log as %2</source>
+            <translation>%1 与 %2 读取同一份记录</translation>
+        </message>
+        <message>
+            <source>%1 (run %2)</source>
+            <translation>%1（测线 %2）</translation>
+        </message>
+        <message>
+            <source>Run %1 starts on check mark %2, which the estimator may not use: it begins as if nothing were known.</source>
+            <translation>测线 %1 从检核点 %2 开始，估计器不能使用该点：按一无所知开始。</translation>
+        </message>
+        <message>
+            <source>passes side by side</source>
+            <translation>并排经过</translation>
+        </message>
+        <message>
+            <source>no header with three columns or more</source>
+            <translation>没有三列以上的标题行</translation>
+        </message>
+        <message>
+            <source>the first column holds no name</source>
+            <translation>第一列不是名称</translation>
+        </message>
+        <message>
+            <source>the row has another number of fields than the header</source>
+            <translation>该行的字段数与标题行不同</translation>
+        </message>
+        <message>
+            <source>process the survey again with this version</source>
+            <translation>请用本版本重新处理测量</translation>
+        </message>
+        <message>
+            <source>process the survey again</source>
+            <translation>请重新处理测量</translation>
+        </message>
+        <message>
+            <source>the manifest does not tell the frame of the survey</source>
+            <translation>清单中没有测量的坐标系</translation>
+        </message>
+        <message>
+            <source>this is no manifest of a processed survey</source>
+            <translation>这不是已处理测量的清单</translation>
+        </message>
+        <message>
+            <source>take another optimiser</source>
+            <translation>请换一种优化算法</translation>
+        </message>
+        <message>
+            <source>GeoTIFF cannot hold this CRS</source>
+            <translation>GeoTIFF 不能保存该坐标参考系</translation>
+        </message>
+        <message>
+            <source>another size</source>
+            <translation>大小不同</translation>
+        </message>
+        <message>
+            <source>another place</source>
+            <translation>位置不同</translation>
+        </message>
+        <message>
+            <source>another nodata value</source>
+            <translation>无数据值不同</translation>
+        </message>
+        <message>
+            <source>other heights</source>
+            <translation>高程不同</translation>
+        </message>
+        <message>
+            <source>no raster</source>
+            <translation>没有栅格</translation>
+        </message>
+        <message>
+            <source>no reason named</source>
+            <translation>没有说明原因</translation>
+        </message>
+        <message>
+            <source>a ground point has no place</source>
+            <translation>有一个地面点没有位置</translation>
+        </message>
+        <message>
+            <source>not all lines can be read again</source>
+            <translation>不是所有的线都能读回</translation>
+        </message>
+        <message>
+            <source>GDAL does not understand the CRS</source>
+            <translation>GDAL 不理解该坐标参考系</translation>
+        </message>
+        <message>
+            <source>no transaction</source>
+            <translation>无法开始事务</translation>
+        </message>
+        <message>
+            <source>cannot carry a file over to the new output</source>
+            <translation>无法把文件移入新的输出</translation>
+        </message>
+        <message>
+            <source>cannot look at the folder</source>
+            <translation>无法查看该文件夹</translation>
+        </message>
+        <message>
+            <source>cannot remove the remains of a previous output</source>
+            <translation>无法删除先前输出的残留</translation>
+        </message>
+        <message>
+            <source>cannot set the permissions of the output</source>
+            <translation>无法设置输出的权限</translation>
+        </message>
+        <message>
+            <source>the new output is in place, but the previous one cannot be renamed</source>
+            <translation>新的输出已就位，但先前的输出无法改名</translation>
+        </message>
+        <message>
+            <source>cannot read the previous output</source>
+            <translation>无法读取先前的输出</translation>
+        </message>
+        <message>
+            <source>a point that is used has no place</source>
+            <translation>有一个采用的点没有位置</translation>
+        </message>
+        <message>
+            <source>it must be a table that terrawalk wrote</source>
+            <translation>必须是 terrawalk 写出的表</translation>
+        </message>
+        <message>
+            <source>it must be a trajectory that terrawalk wrote</source>
+            <translation>必须是 terrawalk 写出的轨迹</translation>
+        </message>
+        <message>
+            <source>no rows</source>
+            <translation>没有行</translation>
+        </message>
+        <message>
+            <source>the time does not grow</source>
+            <translation>时间没有递增</translation>
+        </message>
+        <message>
+            <source>heights are neither in metres nor in feet</source>
+            <translation>高程的单位既不是米也不是英尺</translation>
+        </message>
+        <message>
+            <source>convert one of them</source>
+            <translation>请换算其中之一</translation>
+        </message>
+        <message>
+            <source>convert them</source>
+            <translation>请换算</translation>
+        </message>
+        <message>
+            <source>project the points first</source>
+            <translation>请先把点投影</translation>
+        </message>
+        <message>
+            <source>cannot write a log without rows</source>
+            <translation>不能写出没有行的日志</translation>
+        </message>
+        <message>
+            <source>the wanted cells are those of another grid</source>
+            <translation>所需格网属于另一个格网</translation>
+        </message>
+        <message>
+            <source>no such method of interpolation</source>
+            <translation>没有这种插值方法</translation>
+        </message>
+        <message>
+            <source>'%1' is no setting</source>
+            <translation>“%1”不是设置项</translation>
+        </message>
+        <message>
+            <source>pagmo refuses the search: %1</source>
+            <translation>pagmo 拒绝搜索：%1</translation>
+        </message>
+        <message>
+            <source>%1 names no class</source>
+            <translation>%1 不表示类别</translation>
+        </message>
+        <message>
+            <source>the DEM holds %1 heights for %2 x %3 cells</source>
+            <translation>DEM 有 %1 个高程，格网却为 %2 x %3</translation>
+        </message>
+        <message>
+            <source>cannot remove a side file of the earlier DEM: %1</source>
+            <translation>无法删除先前 DEM 的附属文件：%1</translation>
+        </message>
+        <message>
+            <source>a ground point names run %1 of %2</source>
+            <translation>有一个地面点属于第 %1 条测线，而共有 %2 条</translation>
+        </message>
+        <message>
+            <source>used %1 with reason %2</source>
+            <translation>采用标记为 %1，原因却为 %2</translation>
+        </message>
+        <message>
+            <source>%1 holds a control character</source>
+            <translation>%1 含有控制字符</translation>
+        </message>
+        <message>
+            <source>%1 is an absolute path</source>
+            <translation>%1 是绝对路径</translation>
+        </message>
+        <message>
+            <source>%1 leaves the project's folder</source>
+            <translation>%1 超出了项目文件夹</translation>
+        </message>
+        <message>
+            <source>%1 leads out of the project's folder by a link</source>
+            <translation>%1 经链接指向项目文件夹之外</translation>
+        </message>
+        <message>
+            <source>%1 is neither in metres nor in feet</source>
+            <translation>%1 的单位既不是米也不是英尺</translation>
+        </message>
+        <message>
+            <source>%1 is no plane CRS: a surface needs east and north in metres or feet</source>
+            <translation>%1 不是平面坐标参考系：曲面需要以米或英尺计的东、北坐标</translation>
+        </message>
+        <message>
+            <source>the plan is in %1 and heights are in %2</source>
+            <translation>平面单位为 %1，高程单位为 %2</translation>
+        </message>
+        <message>
+            <source>cannot write run "%1": its id names no file of its own</source>
+            <translation>无法写出测线 "%1"：其名称不能作为独立的文件名</translation>
+        </message>
+        <message>
+            <source>%1 sigmas were given for %2 points</source>
+            <translation>给了 %1 个 σ，却有 %2 个点</translation>
+        </message>
+        <message>
             <source>The check marks' own error is not known: the RMSE_V found leaves it out.</source>
             <translation>检查点自身误差未知：所得 RMSE_V 未计入它。</translation>
         </message>
@@ -3218,10 +4518,6 @@
         <message>
             <source>the %1 have x %2 to %3 and y %4 to %5, which are no degrees, but %6</source>
             <translation>%1的坐标 x 为 %2 至 %3，y 为 %4 至 %5，不是度，但是%6</translation>
-        </message>
-        <message>
-            <source>%1 is no plane CRS: a surface needs east and north in metres or feet</source>
-            <translation>%1 不是平面坐标系：地表需要以米或英尺计的东、北坐标</translation>
         </message>
         <message>
             <source>GeoJSON that names no CRS counts as WGS 84: where its coordinates are those of a plane, name their CRS, e.g. with `ogr2ogr -a_srs EPSG:32649 new.gpkg old.geojson`; project degrees with `-t_srs`</source>
@@ -5008,11 +6304,11 @@
         </message>
         <message>
             <source>by which a run differs from that</source>
-            <translation>单个测线与之的差异</translation>
+            <translation>单条测线与之的差异</translation>
         </message>
         <message>
             <source>error of scale of the optical flow, constant in a run</source>
-            <translation>光流的比例误差，一个测线内不变</translation>
+            <translation>光流的比例误差，一条测线内不变</translation>
         </message>
         <message>
             <source>half the difference of the scales of forward and left</source>
@@ -5020,11 +6316,11 @@
         </message>
         <message>
             <source>bias of the gyro, constant in a run</source>
-            <translation>陀螺零偏，一个测线内不变</translation>
+            <translation>陀螺零偏，一条测线内不变</translation>
         </message>
         <message>
             <source>error of scale of the gyro, constant in a run</source>
-            <translation>陀螺的比例误差，一个测线内不变</translation>
+            <translation>陀螺的比例误差，一条测线内不变</translation>
         </message>
         <message>
             <source>by which a turn summed up from the gyro errs</source>
@@ -6457,10 +7753,6 @@
             <translation>σ</translation>
         </message>
         <message>
-            <source>%1 %2 s</source>
-            <translation>%1 %2 s</translation>
-        </message>
-        <message>
             <source>Click the map: this panel tells the height there, how sure it is, and why.</source>
             <translation>单击地图：此处显示该点高程、可靠程度及原因。</translation>
         </message>
@@ -6519,6 +7811,10 @@
         <message>
             <source> · slope %1° · %2 to the nearest point · %3 points/m² · %4</source>
             <translation> · 坡度 %1° · 距最近点 %2 · %3 点/m² · %4</translation>
+        </message>
+        <message>
+            <source>%1 %2 s</source>
+            <translation>%1 %2 s</translation>
         </message>
     </context>
     <context>
@@ -6795,6 +8091,62 @@
         <message>
             <source>Takes its settings over, undo brings yours back; process again to see its results</source>
             <translation>采用其设置，可撤销；重新处理即可看到结果</translation>
+        </message>
+        <message>
+            <source>Process it again</source>
+            <translation>重新处理</translation>
+        </message>
+        <message>
+            <source>Keep surfaces on disk, to compare heights after a restart</source>
+            <translation>在磁盘上保留曲面，以便重启后比较高程</translation>
+        </message>
+        <message>
+            <source>Of the runs whose results are here and of those to come, until they leave this list. Unticked, those on disk are removed.</source>
+            <translation>保留结果仍在内存中的和以后的处理的曲面，直到它们离开此列表。取消勾选则删除磁盘上的曲面。</translation>
+        </message>
+        <message>
+            <source>%1 on disk</source>
+            <translation>磁盘上 %1</translation>
+        </message>
+        <message>
+            <source>at most %1 for each run</source>
+            <translation>每次处理至多 %1</translation>
+        </message>
+        <message>
+            <source>Its results are shown.</source>
+            <translation>正在显示其结果。</translation>
+        </message>
+        <message>
+            <source>Its results are still here.</source>
+            <translation>其结果仍在内存中。</translation>
+        </message>
+        <message>
+            <source>Its surface is kept on disk (%1), so that heights can be compared. For the other views it has to be processed again.</source>
+            <translation>其曲面保留在磁盘上（%1），因此可以比较高程。其他视图需要重新处理。</translation>
+        </message>
+        <message>
+            <source>Only its settings and figures were kept. Processing it again gives its results back: the same logs, settings and version of the program give the same bytes.</source>
+            <translation>只保留了其设置和数值。重新处理即可得到其结果：相同的日志、设置和程序版本给出逐字节相同的结果。</translation>
+        </message>
+        <message>
+            <source>Process the survey first: its heights are compared with those of this run</source>
+            <translation>请先处理测量：其高程将与该次处理比较</translation>
+        </message>
+        <message>
+            <source>These are the heights that are shown</source>
+            <translation>这就是正在显示的高程</translation>
+        </message>
+        <message>
+            <source>The surface of this run was not kept</source>
+            <translation>没有保留该次处理的曲面</translation>
+        </message>
+        <message>
+            <source>How the heights changed since, as a layer</source>
+            <translation>此后高程的变化，作为图层显示</translation>
+        </message>
+        <message>
+            <source>Takes its settings over, undo brings yours back, and processes</source>
+            <translation>采用其设置（撤销可恢复），并处理</translation>
         </message>
         <message>
             <source>How the heights changed since, as a layer; for runs since the survey was opened</source>
@@ -7154,7 +8506,7 @@
         <message numerus="yes">
             <source>%n run(s)</source>
             <translation>
-                <numerusform>%n 个测线</numerusform>
+                <numerusform>%n 条测线</numerusform>
             </translation>
         </message>
         <message>
@@ -7362,13 +8714,13 @@
             <source>%1: %2.</source>
             <translation>%1：%2。</translation>
         </message>
+        <message>
+            <source>%1: cannot be written; check that you may write there</source>
+            <translation>%1：无法写入；请检查写权限</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::SurveyTreeModel</name>
-        <message>
-            <source>any reading</source>
-            <translation>全部读数</translation>
-        </message>
         <message>
             <source>GNSS</source>
             <translation>GNSS</translation>
@@ -7504,20 +8856,12 @@
             <translation>%1 个三角形</translation>
         </message>
         <message>
-            <source>Terrace edges</source>
-            <translation>梯田边缘</translation>
-        </message>
-        <message>
             <source>A click shows it</source>
             <translation>单击即显示</translation>
         </message>
         <message>
             <source>Point density</source>
             <translation>点密度</translation>
-        </message>
-        <message>
-            <source>Source of heights</source>
-            <translation>高程来源</translation>
         </message>
         <message>
             <source>%1 % measured</source>
@@ -7542,6 +8886,30 @@
         <message>
             <source>median %1</source>
             <translation>中位数 %1</translation>
+        </message>
+        <message>
+            <source>Sources</source>
+            <translation>来源</translation>
+        </message>
+        <message>
+            <source>Terraces</source>
+            <translation>梯田</translation>
+        </message>
+        <message>
+            <source>%1 left out</source>
+            <translation>%1 已排除</translation>
+        </message>
+        <message>
+            <source>any reading</source>
+            <translation>全部读数</translation>
+        </message>
+        <message>
+            <source>Terrace edges</source>
+            <translation>梯田边缘</translation>
+        </message>
+        <message>
+            <source>Source of heights</source>
+            <translation>高程来源</translation>
         </message>
     </context>
     <context>

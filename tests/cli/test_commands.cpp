@@ -15,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
 
 /// The figures that a shipped survey must give stand in its expected.json: a path into report.json, a value,
@@ -116,6 +117,31 @@ TEST(Process, RequestedAndUsedValuesStandInTheReport) {
     EXPECT_EQ(settings.at("fusion.method").second, "raw");
     EXPECT_EQ(settings.at("surface.longest_edge_m").first, "default");
     EXPECT_GT(std::stod(settings.at("surface.longest_edge_m").second), 0.0);
+}
+
+TEST(Process, GivesAChineseReportWhenAsked) {
+    const TemporaryFolder scratch;
+    const auto outcome = terrawalk(
+        {"process", quickPlot().string(), "-o", (scratch / "out").string(), "--set", "report.language=zh"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(bytesOf(scratch / "out/report.html"), HasSubstr("<html lang=\"zh-CN\">"));
+    EXPECT_EQ(
+        json::parse(bytesOf(scratch / "out/manifest.json")).at("configuration").at("report").at("language"),
+        "zh");
+}
+
+TEST(Process, WithoutAFontForChineseThePaperIsInEnglishAndSaysSo) {
+    const TemporaryFolder scratch;
+    writeBytes(scratch / "fonts.conf",
+               "<?xml version=\"1.0\"?><!DOCTYPE fontconfig SYSTEM \"fonts.dtd\">"
+               "<fontconfig><dir>/usr/share/fonts/truetype/dejavu</dir></fontconfig>");
+    const auto outcome = runProgram({"/usr/bin/env", "FONTCONFIG_FILE=" + (scratch / "fonts.conf").string(),
+                                     TERRAWALK_PROGRAM, "process", quickPlot().string(), "-o",
+                                     (scratch / "out").string(), "--set", "report.language=zh"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(bytesOf(scratch / "out/report.html"), HasSubstr("<html lang=\"zh-CN\">"));
+    const auto paper = runProgram({"/usr/bin/pdftotext", (scratch / "out/report.pdf").string(), "-"});
+    EXPECT_THAT(paper.out, AllOf(HasSubstr("This machine has no font for Chinese"), HasSubstr("Accuracy")));
 }
 
 TEST(Process, DemOpensInGdalWithPlaceSizeAndStatistics) {

@@ -39,6 +39,7 @@
 #include "app/gui/language.hpp"
 #include "app/gui/map_panel.hpp"
 #include "app/gui/new_survey_dialog.hpp"
+#include "app/gui/place_panel.hpp"
 #include "app/gui/plot_canvas.hpp"
 #include "app/gui/plots_view.hpp"
 #include "app/gui/profile_plot.hpp"
@@ -109,12 +110,15 @@ class WindowTest : public QObject {
     void arrowKeysChooseInTheTree();
     void resultsInTheTreeShowThemselves();
     void savedSettingsReplayedByTheCommandLineGiveTheSameBytes();
+    void aChineseReportReplayedByTheCommandLineIsTheSameBytes();
+    void narrowPlacePanelCutsNothing();
     void exportDialogRefusesWhatCannotBe();
     void themeAndLanguageSwitch();
     void badFilesAreErrorsInTheMessagesAndLoseNothing();
     void droppedFolderIsOpened();
     void earlierRunsCanBeGoneBackTo();
     void earlierRunsOutliveTheProgram();
+    void keptSurfacesOfEarlierRunsAreComparedAfterARestart();
     void runsOfReadOnlySurveysAndBrokenListsAreNoHarm();
     void figuresStandBesideThoseOfTheRunBefore();
     void keysAloneSuffice();
@@ -145,6 +149,8 @@ class WindowTest : public QObject {
     [[nodiscard]] static Silence longestSilence(const std::function<bool()>& done);
     void openSample();
     void processed();
+    /// What the window exports and what its command writes.
+    void commandGivesTheSameBytes();
     [[nodiscard]] QPoint onScreen(const Eigen::Vector3d& map_m) const {
         return window_->map().transform().toScreen({map_m.x(), map_m.y()}).toPoint();
     }
@@ -816,11 +822,33 @@ void WindowTest::savedSettingsReplayedByTheCommandLineGiveTheSameBytes() {
     action("save").trigger();
     QVERIFY(!window_->isWindowModified());
     processed();
+    QVERIFY(session().commandArguments().contains("--config"));
+    commandGivesTheSameBytes();
+}
+
+// The report speaks the window's language, and the command says so.
+void WindowTest::aChineseReportReplayedByTheCommandLineIsTheSameBytes() {
+    processed();
+    applyLanguage("zh_CN");
+    commandGivesTheSameBytes();
+    QVERIFY(session().commandArguments().contains("report.language=zh"));
+    QVERIFY(bytesOf(scratch_->filePath("window/report.html")).contains("<html lang=\"zh-CN\">"));
+    // What is saved by a Chinese window says it too; an English one takes it back.
+    QVERIFY(session().changeSetting("surface.cell_m", "0.5"));
+    action("save").trigger();
+    processed();
+    QVERIFY(!session().commandArguments().contains("report.language=zh"));
+    applyLanguage("en");
+    QVERIFY(session().commandArguments().contains("report.language=en"));
+    commandGivesTheSameBytes();
+    QVERIFY(bytesOf(scratch_->filePath("window/report.html")).contains("<html lang=\"en\">"));
+}
+
+void WindowTest::commandGivesTheSameBytes() {
     QSignalSpy exported(&session(), &SurveySession::exported);
     session().exportTo(scratch_->filePath("window").toStdString());
     QTRY_VERIFY_WITH_TIMEOUT(exported.count() == 1, kLong_ms);
     const QStringList arguments = session().commandArguments();
-    QVERIFY(arguments.contains("--config"));
     QProcess command;
     command.start(TERRAWALK_PROGRAM, arguments.mid(1) + QStringList{"-o", scratch_->filePath("command")});
     QVERIFY(command.waitForFinished(kLong_ms));
@@ -834,6 +862,35 @@ void WindowTest::savedSettingsReplayedByTheCommandLineGiveTheSameBytes() {
         ++compared;
     }
     QVERIFY(compared > 10);
+}
+
+void WindowTest::narrowPlacePanelCutsNothing() {
+    PlaceReport place;
+    place.height_m = 112.345;
+    place.sigma_m = 0.123;
+    place.parts = SigmaParts{0.1, 0.02, 0.03, 0.04};
+    place.sigma_after_pass_m = 0.09;
+    for (const char* run : {"S01", "2024-05-17_north_terrace", "walkwithoutanybreakinitsname"}) {
+        place.nearest.push_back({run, 12345.6, 12.34, 1234.56, 12.34, GroundPointState::StatisticalOutlier});
+    }
+    for (const char* language : {"en", "zh_CN"}) {
+        applyLanguage(language);
+        PlacePanel panel;
+        panel.resize(panel.minimumWidth(), 700);
+        panel.show(place);
+        static_cast<QWidget&>(panel).show();
+        QVERIFY(QTest::qWaitForWindowExposed(&panel));
+        const int right = panel.findChild<QScrollArea*>()->viewport()->width();
+        for (const QLabel* label : panel.findChildren<QLabel*>()) {
+            const QString& words = label->text();
+            const QRect needed = label->fontMetrics().boundingRect(
+                QRect(0, 0, label->width(), 10'000), label->wordWrap() ? Qt::TextWordWrap : 0, words);
+            QVERIFY2(needed.width() <= label->width() && needed.height() <= label->height(),
+                     qPrintable(words));
+            QVERIFY2(label->mapTo(&panel, label->rect().topRight()).x() < right, qPrintable(words));
+        }
+    }
+    applyLanguage("en");
 }
 
 void WindowTest::exportDialogRefusesWhatCannotBe() {
@@ -996,6 +1053,57 @@ void WindowTest::earlierRunsOutliveTheProgram() {
     processed();
     session().goBackToRun(2);
     QCOMPARE(session().products(), first);
+}
+
+void WindowTest::keptSurfacesOfEarlierRunsAreComparedAfterARestart() {
+    processed();
+    const auto runsDialog = [this] {
+        action("runs").trigger();
+        return QApplication::activeModalWidget();
+    };
+    QWidget* dialog = runsDialog();
+    auto* keep = dialog->findChild<QCheckBox*>("keep_surfaces");
+    QVERIFY(!keep->isChecked());
+    keep->click();
+    QTRY_VERIFY_WITH_TIMEOUT(idle(), kLong_ms);
+    // The run that is shown is kept at once, the next by itself.
+    QVERIFY(session().keptSurfaces().has(session().runs().front().when));
+    dialog->close();
+    QVERIFY(session().changeSetting("surface.cell_m", "1"));
+    processed();
+    const QDateTime first = session().runs().front().when, second = session().runs().back().when;
+    QVERIFY(session().keptSurfaces().has(second));
+    QVERIFY(session().keptSurfaces().bytes(first) <=
+            KeptSurfaces::mostBytes(*session().history()[0].products));
+    // The two results in memory say what the file must say.
+    session().compareWithRun(0);
+    QTRY_VERIFY_WITH_TIMEOUT(idle() && session().viewState().now().change, kLong_ms);
+    const double median_m = session().viewState().now().change->median_m;
+    const double rms_m = session().viewState().now().change->rms_m;
+
+    window_->close();
+    desktop_ = std::make_unique<Desktop>();
+    window_ = &desktop_->window();
+    window_->show();
+    QApplication::setActiveWindow(window_);
+    openSample();
+    QVERIFY(!session().canCompareWith(0));  // nothing is shown yet
+    dialog = runsDialog();
+    dialog->findChild<QTableWidget*>("runs_table")->selectRow(0);
+    QVERIFY(dialog->findChild<QLabel*>("results_of_run")->text().contains("kept on disk"));
+    QTest::mouseClick(dialog->findChild<QPushButton*>("process_run_again"), Qt::LeftButton);
+    QTRY_VERIFY_WITH_TIMEOUT(session().products() && idle(), kLong_ms);
+    QCOMPARE(session().settings().config().surface.cell_m, 1.0);
+    QVERIFY(session().canCompareWith(0));
+    session().compareWithRun(0);
+    QTRY_VERIFY_WITH_TIMEOUT(idle() && session().viewState().now().change, kLong_ms);
+    QVERIFY(std::abs(session().viewState().now().change->median_m - median_m) < 1e-6);
+    QVERIFY(std::abs(session().viewState().now().change->rms_m - rms_m) < 1e-6);
+    QVERIFY(session().viewState().now().change->earlier_has_sigma);
+    // Unticked, the disk is as it was.
+    session().keepSurfaces(false);
+    QVERIFY(!session().keptSurfaces().wanted());
+    QVERIFY(!session().canCompareWith(0));
 }
 
 void WindowTest::runsOfReadOnlySurveysAndBrokenListsAreNoHarm() {

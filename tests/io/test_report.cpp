@@ -513,6 +513,135 @@ TEST(ReportPage, OfHundredsOfMarksTakesAMoment) {
     EXPECT_LT(html.size(), 3'000'000U);
 }
 
+// ---------------------------------------------------------------------------------------------- Chinese
+
+/// A report of everything that a page can tell.
+SurveyReport fullReport() {
+    SurveyReport report = reportWithSlopes();
+    report.adjustment = AdjustmentSummary{};
+    report.adjustment->crossovers = 120;
+    report.adjustment->crossover_test = {100, 95, 0.9};
+    report.adjustment->left_out = {10, 0.3, 0.1};
+    report.adjustment->plan_inflation = 1.3;
+    report.adjustment->noise = {{"barometer drift", 80, 1.2, 3}, {"GNSS noise, plan, single", 900, 1.6, 40}};
+    report.surface.uncertainty = UncertaintySummary{};
+    report.surface.uncertainty->own_variance = true;
+    report.surface.variogram = VariogramSummary{"spherical", 0.01, 0.4, 12.0, std::nullopt, 4000};
+    report.surface.breaklines = 2;
+    report.occupancy = OccupancySummary{};
+    report.tuning = TuningRecord{.survey = "Orchard",
+                                 .method = "aukf",
+                                 .optimiser = "isma",
+                                 .left_out_before = 2.0,
+                                 .left_out_after = 1.5,
+                                 .decision =
+                                     "The search found nothing better than the values that it started "
+                                     "from; these stay.",
+                                 .marks = {{"P01"}, {"P02"}}};
+    report.runs.front().cut_off_line = 12;
+    report.runs.front().notes = {"no GNSS position for 12 s",
+                                 "heading missing in 3 of 259 epochs; the last "
+                                 "value is held"};
+    report.warnings = {"line 4: unknown key speed is not used"};
+    report.language = ReportLanguage::Chinese;
+    return report;
+}
+
+/// The page without what stays as it is: style, names and codes, English that a standard prescribes.
+std::string proseOf(std::string html) {
+    const std::size_t style = html.find("<style>");
+    html.erase(style, html.find("</style>") - style);
+    html = std::regex_replace(html, std::regex("<[^>]* translate=\"no\"[^>]*>[^<]*"), "<");
+    html = std::regex_replace(html, std::regex("\uff08Tested [^<]*"), "");
+    return std::regex_replace(html, std::regex("<[^>]*>"), "\n");
+}
+
+TEST(ReportInChinese, LeavesNoSentenceInEnglish) {
+    std::vector<SurveyReport> reports{
+        fullReport(),
+        SurveyReport{},
+        withAccuracy({}),
+        madeReport({.check_marks = 0}),
+        madeReport({.fixed_point_runs = 0, .check_marks = 0, .control_marks = 0}),
+        madeReport({.fixed_point_runs = 1, .area_epochs = 0, .check_marks = 1, .control_marks = 0}),
+        madeReport({.check_marks = 400, .sigma_before_m = 30.0})};
+    for (SurveyReport& report : reports) {
+        report.language = ReportLanguage::Chinese;
+        report.program_version = "0.1.0";
+        if (!report.survey_name.empty()) report.survey_name = "Orchard";
+        // Sentences that no code of the program says.
+        if (!report.runs.empty()) report.runs.back().notes.clear();
+        std::erase_if(report.limitations,
+                      [](const std::string& s) { return s.starts_with("The GNSS base"); });
+        if (report.method.starts_with("unscented")) report.method = "9-state unscented Kalman filter";
+        if (report.surface.method.ends_with("interpolation")) report.surface.method += " at cell centres";
+        if (!report.surface.vertical_datum.empty())
+            report.surface.vertical_datum = "Heights are metres above the WGS 84 ellipsoid.";
+        for (RunReport& run : report.runs) {
+            for (SensorUse& use : run.sensors) use.rejections = {{"beyond gate", 3}, {"no texture", 5}};
+            if (!run.sensors.empty()) run.sensors.pop_back();
+        }
+        const std::string html = reportHtml(report);
+        EXPECT_TRUE(isWellFormedXml(html));
+        EXPECT_THAT(html, HasSubstr("<html lang=\"zh-CN\">"));
+        const std::string prose = proseOf(html);
+        static const std::regex english(".*[a-z]{2,} [a-z]{2,}.*");
+        for (std::sregex_iterator it(prose.begin(), prose.end(), english), end; it != end; ++it)
+            ADD_FAILURE() << it->str();
+    }
+}
+
+TEST(ReportInChinese, TellsTheSameNumbers) {
+    SurveyReport report = fullReport();
+    const std::string chinese = reportHtml(report);
+    report.language = ReportLanguage::English;
+    const std::string english = reportHtml(report);
+    static const std::regex anchor("<tr id=\"([^\"]+)\">");
+    std::size_t rows = 0;
+    for (std::sregex_iterator it(english.begin(), english.end(), anchor), end; it != end; ++it, ++rows) {
+        const auto told = htmlRow(english, (*it)[1].str()), again = htmlRow(chinese, (*it)[1].str());
+        ASSERT_EQ(told.size(), again.size());
+        for (std::size_t i = 1; i < told.size(); ++i) {
+            if (!told[i].starts_with("not determined")) {
+                EXPECT_EQ(told[i], again[i]);
+            }
+        }
+    }
+    EXPECT_GT(rows, 10U);
+    EXPECT_EQ(reportJson(report), reportJson(fullReport()));
+}
+
+TEST(ReportInChinese, LeavesNamesAsTheyAre) {
+    SurveyReport report = exampleReport({.fixed_point_runs = 2, .area_epochs = 50, .check_marks = 12});
+    report.language = ReportLanguage::Chinese;
+    report.survey_name = "Terrain model";
+    report.runs.front().id = "surface";
+    report.marks.back().name = "check";
+    for (Residual& r : report.residuals) r.mark = "check";
+    const std::string html = reportHtml(withAccuracy(report));
+    EXPECT_THAT(html,
+                AllOf(HasSubstr(">Terrain model</h1>"), HasSubstr(">surface</span>"),
+                      HasSubstr(">surface</th>"), HasSubstr(">check</th>"), HasSubstr(">check</text>")));
+}
+
+TEST(ReportInChinese, KeepsTheWordingOfTheStandards) {
+    const std::string html = reportHtml(fullReport());
+    EXPECT_THAT(html,
+                AllOf(HasSubstr("\u4f4d\u7f6e\u7cbe\u5ea6\u6807\u51c6"), HasSubstr("\uff08Tested with ")));
+}
+
+TEST(ReportInChinese, ReadsOnPaper) {
+    const test::TemporaryFolder folder;
+    ASSERT_TRUE(writeReportPdf(fullReport(), folder / "report.pdf"));
+    EXPECT_EQ(test::bytesOf(folder / "report.pdf"), reportPdf(fullReport()).value());
+    const auto read =
+        test::runProgram({"/usr/bin/pdftotext", "-layout", (folder / "report.pdf").string(), "-"});
+    ASSERT_EQ(read.exit_code, 0) << read.err;
+    EXPECT_THAT(withoutBlanks(read.out),
+                AllOf(HasSubstr("\u672a\u80fd\u68c0\u6838\u7684\u5185\u5bb9"), HasSubstr("Testedwith"),
+                      HasSubstr("\u878d\u5408\u65b9\u6cd5")));
+}
+
 // ---------------------------------------------------------------------------------------------- map
 
 TEST(SurveyMap, HasOneScaleForBothAxes) {

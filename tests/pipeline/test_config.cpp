@@ -30,8 +30,24 @@ TEST(Config, EveryParameterChangesItselfAndNothingElse) {
         std::string pointer = "/" + p.key;
         std::replace(pointer.begin(), pointer.end(), '.', '/');
         bool changed = false;
-        for (const char* candidate : {"true", "false", "1", "2", "3.5", "30", "0.3", "0.01", "raw", "ukf",
-                                      "always", "rtk", "never", "ekf", "kriging", "off", R"(["P01"])",
+        for (const char* candidate : {"true",
+                                      "false",
+                                      "1",
+                                      "2",
+                                      "3.5",
+                                      "30",
+                                      "0.3",
+                                      "0.01",
+                                      "raw",
+                                      "ukf",
+                                      "always",
+                                      "rtk",
+                                      "never",
+                                      "ekf",
+                                      "kriging",
+                                      "off",
+                                      "zh",
+                                      R"(["P01"])",
                                       R"([{"run":"S01","from_s":1,"to_s":2.5,"sensor":"range"}])",
                                       R"([{"kind":"soft","vertices_m":[[1,2.5],[3,4,5]]}])"}) {
             PipelineConfig config;
