@@ -61,6 +61,17 @@ void fitHeight(QTableView& table) {
     table.setFixedHeight(height);
 }
 
+constexpr int kComparedColumn = 1;
+
+/// Columns as wide as their texts; one of them takes the room that is left.
+void fillWidth(QTableView& table, int column) {
+    table.resizeColumnsToContents();
+    QHeaderView& header = *table.horizontalHeader();
+    // Its viewport follows a new size later.
+    const int rest = table.width() - 2 * table.frameWidth() - header.length();
+    if (rest > 0) header.resizeSection(column, header.sectionSize(column) + rest);
+}
+
 void dress(QTableView& table) {
     dressTable(table, 26);
     table.setAlternatingRowColors(true);
@@ -131,7 +142,7 @@ void AccuracyPanel::show(std::shared_ptr<const Products> products) {
     const SurveyReport& report = products->report;
     fillFigures(report);
     model_.show(report.accuracy, report.headline);
-    groups_->resizeColumnsToContents();
+    fillWidth(*groups_, kComparedColumn);
     groups_->setHorizontalScrollBarPolicy(Qt::ScrollBarAsNeeded);
     fitHeight(*groups_);
     fillWords(report);
@@ -140,6 +151,7 @@ void AccuracyPanel::show(std::shared_ptr<const Products> products) {
 
 bool AccuracyPanel::eventFilter(QObject* watched, QEvent* event) {
     auto* table = qobject_cast<QTableView*>(watched);
+    if (table == groups_ && event->type() == QEvent::Resize) fillWidth(*groups_, kComparedColumn);
     if (table != nullptr && event->type() == QEvent::Resize) fitHeight(*table);
     return QWidget::eventFilter(watched, event);
 }

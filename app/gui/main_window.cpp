@@ -265,6 +265,7 @@ void MainWindow::buildDocks() {
     readout_->setObjectName("readout");
     state_ = new QLabel;
     state_->setObjectName("quiet");
+    state_->setContentsMargins(0, 0, kGrid_px, 0);
     crs_ = new QLabel;
     crs_->setObjectName("crs");
     statusBar()->addPermanentWidget(readout_);

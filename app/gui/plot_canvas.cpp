@@ -477,7 +477,11 @@ void PlotCanvas::Parts::addPanel(std::size_t index, QCPMarginGroup& margins) {
     const bool legend_needed =
         source.series.size() > 1 || (source.series.size() == 1 && !source.series.front().half_band.empty());
     if (legend_needed) panel.legend = addLegend();
-    view->plotLayout()->addElement(view->plotLayout()->rowCount(), 0, panel.rect);
+    const int row = view->plotLayout()->rowCount();
+    view->plotLayout()->addElement(row, 0, panel.rect);
+    // The lowest holds the axis of all.
+    constexpr double kWithAxis = 1.3;
+    if (lowest && index > 0) view->plotLayout()->setRowStretchFactor(row, kWithAxis);
     style(*panel.rect);
     panel.rect->setMarginGroup(QCP::msLeft | QCP::msRight, &margins);
     panel.rect->setMinimumMargins(QMargins(48, index == 0 ? 12 : 4, 16, 4));

@@ -76,7 +76,7 @@ QToolBar QToolButton:hover { background: %line; }
 QToolBar QToolButton:checked { background: %accent; }
 QStatusBar { border-top: 1px solid %line; }
 QStatusBar::item { border: 0; }
-QDockWidget { font-weight: 600; titlebar-close-icon: url(:/icons/dock_close.svg); titlebar-normal-icon: url(:/icons/dock_float.svg); }
+QDockWidget { font-weight: 700; titlebar-close-icon: url(:/icons/dock_close.svg); titlebar-normal-icon: url(:/icons/dock_float.svg); }
 QDockWidget::close-button, QDockWidget::float-button { border: 0; border-radius: 4px; padding: 0; icon-size: 14px; subcontrol-origin: margin; subcontrol-position: right; position: absolute; top: 0; bottom: 0; width: 18px; }
 QDockWidget::close-button { right: 8px; }
 QDockWidget::float-button { right: 32px; }
@@ -87,7 +87,7 @@ QTreeView::item { padding: 3px 0; }
 QTreeView::item:selected, QTableView::item:selected { background: %accent; color: %onaccent; }
 QTableView#runs_table, QTableView#differences_table { outline: 0; }
 QTableView#runs_table::item, QTableView#differences_table::item { border: 0; padding: 0 5px; }
-QHeaderView::section { background: %raised; border: 0; border-bottom: 1px solid %line; padding: 4px 8px; font-weight: 600; }
+QHeaderView::section { background: %raised; border: 0; border-bottom: 1px solid %line; padding: 4px 8px; font-weight: 700; }
 QTabWidget::pane { border: 0; }
 QTabBar::tab { padding: 8px 16px; border: 0; border-bottom: 2px solid transparent; color: %quiet; }
 QTabBar::tab:selected { color: %text; border-bottom: 2px solid %accent; }
@@ -116,18 +116,18 @@ QComboBox QAbstractItemView { background: %base; border: 1px solid %line; select
 QPushButton { padding: 6px 16px; border: 1px solid %line; border-radius: 4px; background: %raised; }
 QPushButton:hover, QPushButton:focus { border-color: %accent; }
 QPushButton:disabled { color: %quiet; }
-QPushButton#primary { background: %accent; color: %onaccent; border-color: %accent; font-weight: 600; }
+QPushButton#primary { background: %accent; color: %onaccent; border-color: %accent; font-weight: 700; }
 QPushButton#primary:disabled { background: %line; color: %quiet; border-color: %line; }
 QPushButton#primary:focus { border-color: %text; }
 QFrame#card { background: %base; border: 1px solid %line; border-radius: 6px; }
 QLabel#quiet { color: %quiet; }
-QLabel#title { font-size: 22px; font-weight: 600; }
-QLabel#heading { font-size: 15px; font-weight: 600; }
-QLabel#figure { font-size: 19px; font-weight: 600; }
-QLabel#cardTitle { font-weight: 600; }
-QLabel#verdict { color: %accent; font-weight: 600; }
+QLabel#title { font-size: 22px; font-weight: 700; }
+QLabel#heading { font-size: 15px; font-weight: 700; }
+QLabel#figure { font-size: 19px; font-weight: 700; }
+QLabel#cardTitle { font-weight: 700; }
+QLabel#verdict { color: %accent; font-weight: 700; }
 QLabel#verdict[verdict="-1"] { color: %warning; }
-QLabel#settingName[changed="true"] { color: %accent; font-weight: 600; }
+QLabel#settingName[changed="true"] { color: %accent; font-weight: 700; }
 QToolButton#further { border: 0; color: %quiet; padding: 4px 0; }
 QToolButton#further:hover, QToolButton#further:focus { color: %accent; text-decoration: underline; }
 QToolButton#reset { border: 0; border-radius: 4px; padding: 3px; }
