@@ -801,7 +801,7 @@ static_assert(sizeof(AukfOptions) == 168, "add the new option to aukfParameters(
 static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
 static_assert(sizeof(PointCleaningOptions) == 104, "add the new option to cleaningParameters()");
 static_assert(sizeof(SurfaceOptions) == 224, "add the new option to surfaceParameters()");
-static_assert(sizeof(ReportOptions) == 16, "add the new option to the report's parameters");
+static_assert(sizeof(ReportOptions) == 24, "add the new option to the report's parameters");
 
 const std::vector<Parameter>& parameters() {
     static const std::vector<Parameter> kParameters = [] {

@@ -154,7 +154,8 @@ void addUncertainty(const Products& products, const Survey& survey,
                                                [&u, whereKnown] { return whereKnown(u.sources); }, true));
     if (products.used.surface.multiband) {
         writers.emplace_back("dem_multiband.tif", [&](const fs::path& f) {
-            return writeDemWithUncertainty(products.dem, u.sigmas_m, describeErrors(products, survey), f, stop);
+            return writeDemWithUncertainty(products.dem, u.sigmas_m, describeErrors(products, survey), f,
+                                           stop);
         });
     }
 }

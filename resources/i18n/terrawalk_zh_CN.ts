@@ -534,14 +534,6 @@
             <source>Surface, tied</source>
             <translation>曲面，受约束</translation>
         </message>
-        <message>
-            <source>Track, tied to the mark</source>
-            <translation>轨迹，已与标志点约束</translation>
-        </message>
-        <message>
-            <source>Surface, mark used by the estimator</source>
-            <translation>曲面，标志点参与估计</translation>
-        </message>
     </context>
     <context>
         <name>ProfilePlot</name>
@@ -7812,10 +7804,6 @@
             <source> · slope %1° · %2 to the nearest point · %3 points/m² · %4</source>
             <translation> · 坡度 %1° · 距最近点 %2 · %3 点/m² · %4</translation>
         </message>
-        <message>
-            <source>%1 %2 s</source>
-            <translation>%1 %2 s</translation>
-        </message>
     </context>
     <context>
         <name>terrawalk::gui::PlotsView</name>
@@ -8147,10 +8135,6 @@
         <message>
             <source>Takes its settings over, undo brings yours back, and processes</source>
             <translation>采用其设置（撤销可恢复），并处理</translation>
-        </message>
-        <message>
-            <source>How the heights changed since, as a layer; for runs since the survey was opened</source>
-            <translation>以图层显示此后的高程变化；限打开测量以来的处理</translation>
         </message>
     </context>
     <context>
@@ -8898,18 +8882,6 @@
         <message>
             <source>%1 left out</source>
             <translation>%1 已排除</translation>
-        </message>
-        <message>
-            <source>any reading</source>
-            <translation>全部读数</translation>
-        </message>
-        <message>
-            <source>Terrace edges</source>
-            <translation>梯田边缘</translation>
-        </message>
-        <message>
-            <source>Source of heights</source>
-            <translation>高程来源</translation>
         </message>
     </context>
     <context>
