@@ -8,6 +8,7 @@
 
 #include "fusion/barometer.hpp"
 #include "fusion/random_numbers.hpp"
+#include "fusion/random_processes.hpp"
 
 namespace terrawalk {
 namespace {
@@ -56,56 +57,6 @@ constexpr std::uint64_t kWholeSurvey = ~std::uint64_t{0};  // run number of what
 RandomNumbers stream(std::uint64_t seed, std::uint64_t run, Stream purpose) {
     return RandomNumbers({seed, run, static_cast<std::uint64_t>(purpose)});
 }
-
-/// First-order Gauss-Markov process of variance 1, in its steady state from the start.
-class GaussMarkov {
-  public:
-    GaussMarkov(double correlation_s, double step_s, RandomNumbers random)
-        : keep_(std::exp(-step_s / correlation_s)), random_(random), value_(random_.normal()) {}
-    double next() {
-        const double value = value_;
-        value_ = keep_ * value_ + std::sqrt(1.0 - keep_ * keep_) * random_.normal();
-        return value;
-    }
-
-  private:
-    double keep_;
-    RandomNumbers random_;
-    double value_;
-};
-
-/// Something that comes at random times and stays for a while.
-class Bursts {
-  public:
-    struct Length {
-        double shortest_s;
-        double longest_s;
-    };
-    Bursts(double per_min, Length length, double step_s, RandomNumbers random)
-        : chance_(std::min(1.0, per_min / 60.0 * step_s)),
-          length_(length),
-          step_s_(step_s),
-          random_(random) {}
-    /// Whether it is there in the next epoch, and whether it has just begun.
-    struct State {
-        bool active = false;
-        bool begins = false;
-    };
-    State next() {
-        left_s_ -= step_s_;
-        if (left_s_ > 0.0) return {true, false};
-        if (!random_.chance(chance_)) return {false, false};
-        left_s_ = random_.uniform(length_.shortest_s, length_.longest_s);
-        return {true, true};
-    }
-
-  private:
-    double chance_;
-    Length length_;
-    double step_s_;
-    double left_s_ = 0.0;
-    RandomNumbers random_;
-};
 
 /// Everything that the sensors of one run see and share.
 struct SensedRun {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "fusion/disturbance.hpp"
 #include "fusion/random_numbers.hpp"
 #include "fusion/simulated_sensors.hpp"
 #include "fusion/simulated_terrain.hpp"
@@ -532,6 +533,10 @@ Result<SimulatedSurvey> simulateSurvey(const SimulationOptions& options, Progres
         const std::vector<const TrueMark*> check_stops = chooseStops(checks, options.check_stops);
         stops.insert(stops.end(), check_stops.begin(), check_stops.end());
         if (auto error = add(simulator.area(stops))) return tl::unexpected(std::move(*error));
+    }
+    for (const Disturbance disturbance : options.disturbances) {
+        disturb(survey, disturbance, options.seed);
+        survey.notes.push_back(fmt::format("Disturbed: {}.", name(disturbance)));
     }
     return simulated;
 }

@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <string_view>
 #include <utility>
+#include <vector>
+
+#include "fusion/disturbance.hpp"
 
 namespace terrawalk {
 
@@ -79,7 +82,8 @@ struct SimulationOptions {
     double mark_sigma_v_m = 0.005;
 
     GnssMode gnss = GnssMode::Single;
-    bool doppler_velocity = false;  ///< whether the receiver gives its velocity as well
+    std::vector<Disturbance> disturbances;  ///< put into the finished logs, in this order
+    bool doppler_velocity = false;          ///< whether the receiver gives its velocity as well
     Eigen::Vector3d range_lever_arm_m = Eigen::Vector3d::Zero();  ///< body frame
     Eigen::Vector3d gnss_lever_arm_m = Eigen::Vector3d::Zero();   ///< body frame
 };

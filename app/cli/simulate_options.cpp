@@ -11,6 +11,8 @@ void addSimulationOptions(CLI::App& command, SimulationOptions& o) {
     addChoice(command, "--terrain", o.terrain, kSimulatedTerrainNames, "Shape of the ground");
     addChoice(command, "--faults", o.faults, kFaultLevelNames, "How bad the day is");
     addChoice(command, "--gnss", o.gnss, kGnssModeNames, "What the receiver reaches");
+    addChoices(command, "--disturb", o.disturbances, kDisturbanceNames,
+               "Errors that no level of faults has, e.g. gnss-drift,flow-spikes");
     const auto number = [&](const char* option, double& value, double least, double greatest,
                             const char* meaning) {
         command.add_option(option, value, meaning)->check(CLI::Range(least, greatest))->capture_default_str();

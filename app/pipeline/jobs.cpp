@@ -111,6 +111,12 @@ std::vector<double> listed(const Eigen::Vector3d& v) {
     return {v.x(), v.y(), v.z()};
 }
 
+std::vector<std::string> disturbanceNames(const SimulationOptions& options) {
+    std::vector<std::string> names;
+    for (const Disturbance disturbance : options.disturbances) names.emplace_back(name(disturbance));
+    return names;
+}
+
 std::string simulationManifest(const SimulationOptions& o, const Survey& survey,
                                std::vector<std::string> files) {
     files.emplace_back("manifest.json");
@@ -123,6 +129,7 @@ std::string simulationManifest(const SimulationOptions& o, const Survey& survey,
                                           {"faults", name(o.faults)},
                                           {"gnss", name(o.gnss)},
                                           {"noise_scale", o.noise_scale},
+                                          {"disturbances", disturbanceNames(o)},
                                           {"area_east_m", o.area_east_m},
                                           {"area_north_m", o.area_north_m},
                                           {"line_spacing_m", o.line_spacing_m},

@@ -277,12 +277,31 @@ TEST(Inspect, TellsSensorsRatesAndFixes) {
 
 TEST(Simulate, GivesASurveyThatCanBeProcessed) {
     const TemporaryFolder scratch;
-    const auto simulated =
-        terrawalk({"simulate", "-o", (scratch / "s").string(), "--seed", "5", "--terrain", "gully",
-                   "--fixed-runs", "2", "--area-epochs", "900", "--area-east", "12", "--area-north", "12",
-                   "--check-points", "10", "--control-stops", "0"});
+    const auto simulated = terrawalk({"simulate",
+                                      "-o",
+                                      (scratch / "s").string(),
+                                      "--seed",
+                                      "5",
+                                      "--terrain",
+                                      "gully",
+                                      "--fixed-runs",
+                                      "2",
+                                      "--area-epochs",
+                                      "900",
+                                      "--area-east",
+                                      "12",
+                                      "--area-north",
+                                      "12",
+                                      "--check-points",
+                                      "10",
+                                      "--control-stops",
+                                      "0",
+                                      "--disturb",
+                                      "no-barometer,flow-spikes"});
     ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
     EXPECT_TRUE(fs::exists(scratch / "s/truth/terrain.tif"));
+    EXPECT_EQ(json::parse(bytesOf(scratch / "s/manifest.json")).at("disturbances"),
+              (json{"no-barometer", "flow-spikes"}));
     const auto processed = terrawalk({"process", (scratch / "s").string(), "-o", (scratch / "out").string()});
     EXPECT_EQ(processed.exit_code, 0) << processed.err;
 }
@@ -325,6 +344,7 @@ TEST(Usage, WrongRequestsExitWithTwo) {
              {"process", quickPlot().string(), "-o", out, "--method", "magic"},
              {"process", quickPlot().string(), "-o", out, "--threads", "-3"},
              {"simulate", "-o", out, "--terrain", "moon"},
+             {"simulate", "-o", out, "--disturb", "flow-spikes,moon"},
              {"config"},
          }) {
         const auto outcome = terrawalk(command);

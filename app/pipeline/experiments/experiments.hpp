@@ -25,6 +25,8 @@ namespace terrawalk {
 
 [[nodiscard]] Result<ExperimentReport> runAccuracy(const ExperimentOptions& options, Progress& progress,
                                                    std::stop_token stop);
+[[nodiscard]] Result<ExperimentReport> runRobustness(const ExperimentOptions& options, Progress& progress,
+                                                     std::stop_token stop);
 [[nodiscard]] Result<ExperimentReport> runCoverage(const ExperimentOptions& options, Progress& progress,
                                                    std::stop_token stop);
 [[nodiscard]] Result<ExperimentReport> runOutage(const ExperimentOptions& options, Progress& progress,
