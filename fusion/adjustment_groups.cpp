@@ -28,10 +28,11 @@ std::vector<RowGroup> adjustmentGroups(bool robust) {
     set(kGnssBias, "GNSS bias of a run", Loss::Square, 3.0, true, 0.2, 6.0);
     set(kDoppler, "GNSS velocity", Loss::Cauchy, 3.0, true);
     set(kBarometer, "barometer noise", Loss::Huber, 2.0, true);
-    set(kBarometerDrift, "barometer drift", Loss::Square, 3.0, true, 0.1, 6.0);
-    set(kGust, "barometer gusts", Loss::Square, 3.0, true, 0.1, 6.0);
+    set(kBarometerDrift, "barometer drift", Loss::Huber, 2.0, true, 0.1, 6.0);
+    set(kGust, "barometer gusts", Loss::Cauchy, 3.0, true, 0.1, 6.0);
     set(kFlow, "optical flow", Loss::Huber, 3.0, true, 0.3, 6.0);
     set(kBridge, "optical flow bridged", Loss::Square, 2.0, false);
+    set(kFlowScale, "optical flow scale", Loss::Square, 3.0, true, 0.2, 3.0);
     set(kCompass, "compass drift", Loss::Cauchy, 3.0, true, 0.2, 6.0);
     set(kGyro, "gyro", Loss::Huber, 3.0, true, 0.2, 20.0);
     set(kHeading, "compass noise", Loss::Cauchy, 3.0, true, 0.2, 10.0);

@@ -24,6 +24,7 @@ enum AdjustmentGroup : std::size_t {
     kGust,
     kFlow,
     kBridge,
+    kFlowScale,
     kCompass,
     kGyro,
     kHeading,

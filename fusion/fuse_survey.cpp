@@ -103,6 +103,9 @@ Result<FusedSurvey> adjusted(const Survey& survey, std::vector<RunFusion> runs, 
         fused.runs[i].trajectory = std::move(solution->trajectories[i]);
     }
     const AdjustmentSummary& summary = solution->summary;
+    if (summary.flow_scale_wanders) {
+        limit(fused, "the scale of the optical flow wanders: the adjustment follows it");
+    }
     if (!summary.settled) {
         limit(fused, fmt::format("the adjustment of all runs has not settled: the last of {} rounds moved a "
                                  "track by {:.2f} m",

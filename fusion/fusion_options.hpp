@@ -198,9 +198,12 @@ struct LastingErrorOptions {
     double gnss_bias_run_sigma_m = 0.4;   ///< by which a run differs from that
     double heading_sigma_deg = 3.0;       ///< compass error that wanders
     double heading_correlation_s = 400.0;
-    double hard_iron_sigma_deg = 2.5;              ///< A sin yaw + B cos yaw, the same in all runs
-    double hard_iron_run_sigma_deg = 0.7;          ///< by which a run differs from that
-    double flow_scale_sigma = 0.1;                 ///< constant in a run
+    double hard_iron_sigma_deg = 2.5;      ///< A sin yaw + B cos yaw, the same in all runs
+    double hard_iron_run_sigma_deg = 0.7;  ///< by which a run differs from that
+    double flow_scale_sigma = 0.1;         ///< constant in a run
+    /// By which the scale wanders beside, where residuals of the flow go together; 0: never.
+    double flow_scale_wander_sigma = 0.08;
+    double flow_scale_correlation_s = 120.0;       ///< time in which it does
     double flow_axes_sigma = 0.05;                 ///< half the difference of the scales of forward and left
     double gyro_bias_sigma_dps = 2.0;              ///< constant in a run
     double gyro_scale_sigma = 0.03;                ///< constant in a run

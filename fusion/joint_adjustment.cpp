@@ -37,7 +37,9 @@ class JointAdjuster {
         for (int round = 0;; ++round) {
             if (stop_.stop_requested()) return cancelled();
             progress_.report(std::min(1.0, (settled_ ? 2.0 + rounds : std::min(round, 1)) / (2.0 + least)),
-                             "adjusting all runs");
+                             shared_.flow_scale_wanders
+                                 ? "adjusting all runs anew: the scale of the optical flow wanders"
+                                 : "adjusting all runs");
             const bool robust = round > 0;
             const bool with_pairs = options_.joint.use_crossovers && settled_;
             if (options_.joint.use_crossovers && (round == 0 || with_pairs)) crossovers_.find();
@@ -62,6 +64,15 @@ class JointAdjuster {
             if (!with_pairs) takeVariances(system);
             if (settled_) ++rounds;
             const bool last = rounds >= 2 * least || (rounds >= least && step_m < kFinalStep_m);
+            if (last && flowScaleWanders()) {
+                // Anew, and first without crossovers: they were paired by a track that trusted the flow too
+                // much.
+                shared_.flow_scale_wanders = true;
+                settled_ = false;
+                round = rounds = 0;
+                before.reset();
+                continue;
+            }
             if (!settled_ && robust && (step_m < kSettledStep_m || round >= kMostToSettle)) {
                 settled_ = true;
                 if (options_.joint.use_crossovers) {
@@ -94,6 +105,7 @@ class JointAdjuster {
         }
         result.summary.height_inflation = height_inflation_;
         result.summary.plan_inflation = plan_inflation_;
+        result.summary.flow_scale_wanders = shared_.flow_scale_wanders;
         if (options_.joint.use_crossovers) {
             crossovers_.find();
             result.summary.misfit_after_m = rootMeanSquareMisfit(crossovers_.pairs());
@@ -124,7 +136,14 @@ class JointAdjuster {
         SensorRows sensors(options_, shared_, settled_, system);
         sensors.addArray();
         for (RunModel& run : runs_) sensors.addRun(run);
+        flow_test_ = sensors.flowTest();
         if (with_pairs) crossovers_.addTo(system);
+    }
+
+    // By the last round, when a constant scale has been found.
+    bool flowScaleWanders() const {
+        return options_.lasting.flow_scale_wander_sigma > 0.0 && !shared_.flow_scale_wanders &&
+               flow_test_.goTogether();
     }
 
     // Returns how far the track moved.
@@ -259,6 +278,7 @@ class JointAdjuster {
     SharedErrors shared_;
     CrossoverRows crossovers_{survey_, options_, runs_, shared_.iron};
     std::size_t unknowns_ = 0;
+    FlowTest flow_test_;  // of the track before the last solution
     double height_inflation_ = 1.0;
     double plan_inflation_ = 1.0;
     bool settled_ = false;  // the track is near its place

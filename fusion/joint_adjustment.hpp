@@ -28,6 +28,7 @@ struct JointSolution {
 ///                                        d: in plan and without RTK, of the run, most of it of the day
 ///     baro   h = u + b + w + noise       b: random walk, w: Gauss-Markov (gusts)
 ///     flow   p(t2) - p(t1) = sum R(yaw - psi - A sin yaw - B cos yaw) f dt / scale
+///            scale: constant in a run; Gauss-Markov beside, where residuals show that it wanders
 ///     gyro   change of the compass error from the turn that the gyro saw
 ///     accel  second differences of p, averaged over a stride, from the specific force and its bias
 ///     ground the ground below the walk climbs little from one second to the next

@@ -12,6 +12,7 @@ namespace terrawalk {
 
 namespace {
 
+constexpr double kScaleKnot_s = 20.0;
 constexpr double kLongest_s = 0.3;  // half of the longest time that an epoch stands for
 
 class Preparer {
@@ -44,6 +45,9 @@ class Preparer {
         }
         markBarometer(run);
         if (run.has_heading) prepareTurn(run);
+        if (run.has_flow && run.has_heading) {
+            for (const double t : log.time_s) run.scale_wander.cover(t, kScaleKnot_s);
+        }
         prepareAcceleration(run);
         run.above_ground_m = withoutSpikes(run);
         prepareFlow(run, flow);
@@ -377,6 +381,8 @@ void numberUnknowns(RunModel& run, std::size_t& next) {
             take(run.turn.knots());
             for (std::size_t i = 0; i < run.size(); ++i) run.turn_at.push_back(run.turn.locate(run.time(i)));
         }
+        run.scale_wander.place(next, 1);
+        take(run.scale_wander.knots());
         for (SingleUnknown* s : constants(run)) {
             s->unknown = take(1);
         }
@@ -422,6 +428,7 @@ double takeSolution(RunModel& run, const Eigen::VectorXd& solution) {
     if (run.acceleration) run.force_bias.take(solution);
     if (run.has_heading) {
         run.psi.take(solution);
+        run.scale_wander.take(solution);
         if (run.has_gyro) run.turn.take(solution);
         for (SingleUnknown* s : constants(run)) {
             s->value += solution[static_cast<Eigen::Index>(s->unknown)];

@@ -46,6 +46,7 @@ struct HardIron {
 struct SharedErrors {
     HardIron iron;                           ///< of the array
     std::array<SingleUnknown, 2> gnss_bias;  ///< of positions without RTK: east, north
+    bool flow_scale_wanders = false;         ///< in all runs, beside what is constant in each
 };
 
 /// A run as the adjustment sees it: what its sensors offer, and what is not known of it.
@@ -62,6 +63,7 @@ struct RunModel {
     std::vector<double> gyro_turn_rad;    // since the epoch before, 0 where the gyro did not tell
     std::vector<double> base_doubt_rad2;  // variance of the turn before this epoch where the gyro was silent
     KnotChain drift, gust;                // barometer
+    KnotChain scale_wander;               // of the flow, beside `scale`
     KnotChain force_bias;                 // accelerometer, body axes
     std::optional<LevelAcceleration> acceleration;
     std::vector<GnssSegment> segments;

@@ -9,6 +9,31 @@
 
 namespace terrawalk {
 
+/// Whether errors of the flow along the way go together, by its residuals over stretches of half a minute.
+class FlowTest {
+  public:
+    /// @param square  of a stretch's sum of errors over what independent errors give
+    /// @param share   variance of its way by the flow over that by GNSS: where GNSS tells little, the track
+    ///                follows the flow, and little of its errors is left to be seen
+    void add(double square, double share) {
+        squares_ += square;
+        expected_ += share / (1.0 + share);
+        ++stretches_;
+    }
+    [[nodiscard]] bool goTogether() const {
+        constexpr std::size_t kFewest = 10;
+        constexpr double kOfOtherModels = 0.5;  // what seems to go together and is no error of scale
+        constexpr double kTimes = 2.0;
+        return stretches_ >= kFewest &&
+               squares_ > kOfOtherModels * static_cast<double>(stretches_) + kTimes * expected_;
+    }
+
+  private:
+    double squares_ = 0.0;
+    double expected_ = 0.0;  ///< of the squares when errors are independent
+    std::size_t stretches_ = 0;
+};
+
 /// Puts what the sensors of a run say into the joint adjustment, one kind of sensor after the other; see
 /// adjustJointly() for what the rows mean. For one round; not thread-safe.
 class SensorRows {
@@ -22,6 +47,7 @@ class SensorRows {
     void addArray();
     void addRun(RunModel& run);  ///< all of its sensors, and its ties
     void addTies(const RunModel& run);
+    [[nodiscard]] const FlowTest& flowTest() const { return flow_test_; }  ///< of the runs added
 
   private:
     // position_rows.cpp
@@ -35,8 +61,10 @@ class SensorRows {
     void addBarometer(const RunModel& run);
     double aboveGround(const RunModel& run, double time_s);
     void addClimb(RunModel& run);
-    // heading_rows.cpp
+    // flow_rows.cpp
     void addFlow(const RunModel& run);
+    void addFlowScale(const RunModel& run);
+    // heading_rows.cpp
     void addHeading(const RunModel& run);
     void addGyro(const RunModel& run);
     void addCompass(const RunModel& run);
@@ -56,6 +84,7 @@ class SensorRows {
     SparseLeastSquares& system_;
     RowTerms row_;
     std::vector<double> scratch_;
+    FlowTest flow_test_;
 };
 
 }  // namespace terrawalk

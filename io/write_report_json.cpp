@@ -320,6 +320,7 @@ Json adjustmentJson(const std::optional<AdjustmentSummary>& adjustment) {
             {"plan_variance_factor", a.plan_inflation},
             {"rounds", a.rounds},
             {"last_step_m", a.last_step_m},
+            {"flow_scale_wanders", a.flow_scale_wanders},
             {"settled", a.settled},
             {"noise", listOf(a.noise, noiseJson)}};
 }

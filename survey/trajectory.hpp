@@ -108,11 +108,12 @@ struct AdjustmentSummary {
     /// Misfits of crossovers over their predicted sigma, before the crossovers had a part in the tracks.
     /// Passes of one run close in time share their errors and do not count.
     SigmaCoverage crossover_test;
-    double height_inflation = 1.0;  ///< factor on the variance of heights that follows from this test
-    double plan_inflation = 1.0;    ///< factor on the variance of the plan, from the tails of GNSS drift
-    int rounds = 0;                 ///< with crossovers
-    double last_step_m = 0.0;       ///< RMS by which the last of them moved the run that moved most, in plan
-    bool settled = false;           ///< whether that is little enough
+    double height_inflation = 1.0;    ///< factor on the variance of heights that follows from this test
+    double plan_inflation = 1.0;      ///< factor on the variance of the plan, from the tails of GNSS drift
+    bool flow_scale_wanders = false;  ///< whether residuals said so, and it was estimated
+    int rounds = 0;                   ///< with crossovers
+    double last_step_m = 0.0;  ///< RMS by which the last of them moved the run that moved most, in plan
+    bool settled = false;      ///< whether that is little enough
     std::vector<NoiseFactor> noise;
 };
 

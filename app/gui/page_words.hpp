@@ -137,6 +137,7 @@ inline constexpr const char* kPageWords[] = {
     QT_TRANSLATE_NOOP("Report", "barometer drift"),
     QT_TRANSLATE_NOOP("Report", "barometer gusts"),
     QT_TRANSLATE_NOOP("Report", "optical flow bridged"),
+    QT_TRANSLATE_NOOP("Report", "optical flow scale"),
     QT_TRANSLATE_NOOP("Report", "compass drift"),
     QT_TRANSLATE_NOOP("Report", "compass noise"),
     QT_TRANSLATE_NOOP("Report", "gyro"),

@@ -127,6 +127,8 @@ constexpr const char* kWords[] = {
     QT_TRANSLATE_NOOP("Report",
                       "the adjustment of all runs has no solution: the tracks are those of the filter, "
                       "crossovers are not used"),
+    QT_TRANSLATE_NOOP("Report", "the scale of the optical flow wanders: the adjustment follows it"),
+    QT_TRANSLATE_NOOP("Report", "adjusting all runs anew: the scale of the optical flow wanders"),
     QT_TRANSLATE_NOOP("Report", "it walks straight, but no mark lies near its end"),
     QT_TRANSLATE_NOOP("Report", "it has no positions"),
     QT_TRANSLATE_NOOP("Report", "as told"),

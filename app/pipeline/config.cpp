@@ -574,6 +574,11 @@ std::vector<Parameter> surfaceParameters() {
         number("fusion.lasting.flow_scale_sigma", 0.0001, 1,
                "error of scale of the optical flow, constant in a run",
                TERRAWALK_FIELD(fusion.lasting.flow_scale_sigma)),
+        number("fusion.lasting.flow_scale_wander_sigma", 0, 1,
+               "by which it wanders beside, where residuals of the flow show that it does; 0: never",
+               TERRAWALK_FIELD(fusion.lasting.flow_scale_wander_sigma)),
+        number("fusion.lasting.flow_scale_correlation_s", 1, 100000, "time in which it wanders",
+               TERRAWALK_FIELD(fusion.lasting.flow_scale_correlation_s)),
         number("fusion.lasting.flow_axes_sigma", 0.0001, 1,
                "half the difference of the scales of forward and left",
                TERRAWALK_FIELD(fusion.lasting.flow_axes_sigma)),
@@ -796,7 +801,7 @@ std::vector<Parameter> editParameters() {
 }
 
 // An option that is added without a parameter could be neither set nor reported.
-static_assert(sizeof(FusionOptions) == 1256, "add the new option to fusionParameters()");
+static_assert(sizeof(FusionOptions) == 1272, "add the new option to fusionParameters()");
 static_assert(sizeof(AukfOptions) == 168, "add the new option to aukfParameters()");
 static_assert(sizeof(GroundPointOptions) == 112, "add the new option to groundParameters()");
 static_assert(sizeof(PointCleaningOptions) == 104, "add the new option to cleaningParameters()");

@@ -4519,6 +4519,22 @@
             <source>project them first, e.g. with `ogr2ogr -t_srs`; where only the CRS is named wrong, `-a_srs` names another</source>
             <translation>先投影，例如用 `ogr2ogr -t_srs`；若只是坐标系注错，用 `-a_srs` 另行注明</translation>
         </message>
+        <message>
+            <source>the adjustment of all runs has not settled: the last of %1 rounds moved a track by %2 m</source>
+            <translation>整体平差未收敛：共 %1 轮，最后一轮仍使一条轨迹移动 %2 m</translation>
+        </message>
+        <message>
+            <source>optical flow scale</source>
+            <translation>光流比例</translation>
+        </message>
+        <message>
+            <source>the scale of the optical flow wanders: the adjustment follows it</source>
+            <translation>光流比例在缓慢变化：整体平差已随之估计</translation>
+        </message>
+        <message>
+            <source>adjusting all runs anew: the scale of the optical flow wanders</source>
+            <translation>重新整体平差：光流比例在缓慢变化</translation>
+        </message>
     </context>
     <context>
         <name>RunFigure</name>
@@ -5396,6 +5412,14 @@
         <message>
             <source>vertical class</source>
             <translation>高程精度等级</translation>
+        </message>
+        <message>
+            <source>lasting flow scale wander sigma</source>
+            <translation>持续误差 光流比例缓变 σ</translation>
+        </message>
+        <message>
+            <source>lasting flow scale correlation</source>
+            <translation>持续误差 光流比例相关时间</translation>
         </message>
     </context>
     <context>
@@ -6485,6 +6509,14 @@
         <message>
             <source>RMSE_V that the surface is tested for by the ASPRS standards; 0: none</source>
             <translation>按 ASPRS 标准检验地表所用的 RMSE_V；0：不检验</translation>
+        </message>
+        <message>
+            <source>by which it wanders beside, where residuals of the flow show that it does; 0: never</source>
+            <translation>此外比例缓慢变化的幅度，仅当光流残差表明确有变化时才估计；0：从不</translation>
+        </message>
+        <message>
+            <source>time in which it wanders</source>
+            <translation>其变化的时间</translation>
         </message>
     </context>
     <context>

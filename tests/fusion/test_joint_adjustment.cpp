@@ -272,6 +272,33 @@ TEST(JointAdjustment, ABiasOfAllPositionsIsFoundOut) {
     EXPECT_LT(moved_m({}), 0.3 * by_unaware_m);
 }
 
+TEST(JointAdjustment, AScaleOfTheFlowThatWandersIsFollowedWhereItDoes) {
+    SimulationOptions day;
+    day.seed = 812;
+    day.area_east_m = 35.0;
+    day.area_north_m = 35.0;
+    day.fixed_point_runs = 6;
+    day.area_epochs = 5500;
+    day.gnss = GnssMode::Float;
+    FusionOptions unaware;
+    unaware.lasting.flow_scale_wander_sigma = 0.0;
+
+    const SimulatedSurvey steady = simulatedSurvey(day);
+    const std::size_t walk = steady.survey.runs.size() - 1;
+    const FusedSurvey steady_result = fused(steady.survey);
+    EXPECT_FALSE(steady_result.adjustment->flow_scale_wanders);
+    EXPECT_EQ(worstDistance(steady_result.runs[walk].trajectory,
+                            fused(steady.survey, unaware).runs[walk].trajectory),
+              0.0);
+
+    day.disturbances = {Disturbance::FlowScaleWander};
+    const SimulatedSurvey wandering = simulatedSurvey(day);
+    const FusedSurvey result = fused(wandering.survey);
+    EXPECT_TRUE(result.adjustment->flow_scale_wanders);
+    EXPECT_LT(rmsError(result, wandering, walk, false),
+              0.8 * rmsError(fused(wandering.survey, unaware), wandering, walk, false));
+}
+
 TEST(JointAdjustment, SigmasOfHeightsHoldOnSmallFields) {
     constexpr std::uint64_t kSeeds = 12;
     for (const auto [gnss, barometer] :
