@@ -66,6 +66,10 @@ Result<void> readBand(GDALRasterBand& band, ElevationGrid& grid, const GdalError
 
 }  // namespace
 
+bool mayBelongTo(const DemFile& errors, const ElevationGrid& heights) {
+    return errors.heights_sha256.empty() || errors.heights_sha256 == sha256OfHeights(heights);
+}
+
 Result<DemFile> readDem(const std::filesystem::path& file, std::stop_token stop) {
     GDALAllRegister();
     const GdalErrors errors;
@@ -85,6 +89,7 @@ Result<DemFile> readDem(const std::filesystem::path& file, std::stop_token stop)
             const double value = CPLAtof(range);
             if (std::isfinite(value) && value > 0.0) dem.correlation_range = value;
         }
+        if (const char* of = dataset->GetMetadataItem(kHeightsSha256); of != nullptr) dem.heights_sha256 = of;
         if (auto done = readBand(*dataset->GetRasterBand(1), dem.grid, errors, file, stop); !done) {
             return tl::unexpected(done.error());
         }

@@ -80,7 +80,7 @@ Result<void> writeLandXml(const TriangleMesh& mesh, const ExchangeDescription& d
 <LandXML xmlns="http://www.landxml.org/schema/LandXML-1.2" version="1.2" date="{}" time="00:00:00" readOnly="false">
 <Units><Metric areaUnit="squareMeter" linearUnit="meter" volumeUnit="cubicMeter" temperatureUnit="celsius" pressureUnit="HPA"/></Units>
 <CoordinateSystem name="{}" ogcWktCode="{}"/>
-<Application name="{}"/>
+<Application name="{}"{}/>
 <Surfaces>
 <Surface name="{}">
 <Definition surfType="TIN">
@@ -88,7 +88,10 @@ Result<void> writeLandXml(const TriangleMesh& mesh, const ExchangeDescription& d
 )",
         description.date.empty() ? "1970-01-01" : escapedMarkup(description.date),
         escapedMarkup(description.crs_name), escapedMarkup(oneLine(description.crs_wkt2)),
-        escapedMarkup(description.software), escapedMarkup(description.title)));
+        escapedMarkup(description.software),
+        description.date.empty() ? " desc=\"The day of the survey is not known: the date stands for none\""
+                                 : "",
+        escapedMarkup(description.title)));
     std::string line;
     for (std::size_t i = 0; done && i < mesh.vertices_m.size(); ++i) {
         const Eigen::Vector3d& v = mesh.vertices_m[i];

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,12 +19,34 @@
 
 namespace terrawalk {
 
-/// What a DEM file says of itself beside the heights.
 /// Metadata item of a DEM: hash of the file of points that it was made from.
 inline constexpr const char* kPointsSha256 = "POINTS_SHA256";
 /// Of a raster of standard errors: range of the spherical correlogram of the errors, in the unit of the band.
 inline constexpr const char* kCorrelationRange = "CORRELATION_RANGE";
+/// Of a raster of standard errors: sha256OfHeights() of the DEM that they belong to.
+inline constexpr const char* kHeightsSha256 = "HEIGHTS_SHA256";
 
+/// How the cells of a raster are packed. Every program reads DEFLATE and bare cells; ZSTD, faster than
+/// DEFLATE and larger by a tenth, needs a libtiff of 2018 or later that was built with it.
+enum class RasterCompression : std::uint8_t { Deflate, Zstd, None };
+inline constexpr std::array<std::pair<RasterCompression, std::string_view>, 3> kRasterCompressions{
+    {{RasterCompression::Deflate, "deflate"},
+     {RasterCompression::Zstd, "zstd"},
+     {RasterCompression::None, "none"}}};
+[[nodiscard]] constexpr std::string_view name(RasterCompression compression) {
+    for (const auto& [value, text] : kRasterCompressions) {
+        if (value == compression) return text;
+    }
+    return {};
+}
+
+/// How a raster lies in its file. The cells are the same, whatever is chosen.
+struct RasterStorage {
+    RasterCompression compression = RasterCompression::Deflate;
+    bool overviews = true;  ///< smaller rasters in the file, which let programs draw it fast when zoomed out
+};
+
+/// What a DEM file says of itself beside the heights.
 struct DemDescription {
     std::string crs_wkt2;                                       ///< as MapProjection::wkt2() gives it
     std::string vertical_datum;                                 ///< metadata VERTICAL_DATUM
@@ -34,9 +57,10 @@ struct DemDescription {
     std::string unit = "m";                                     ///< of the band: m, ft or US-ft
     /// Values name classes, 1 to 255: a file of bytes with 0 for none, and overviews show the most frequent.
     bool classes = false;
+    RasterStorage storage = {};
 };
 
-/// Writes a Cloud-Optimized GeoTIFF: Float32, nodata -9999, statistics, averaged overviews,
+/// Writes a Cloud-Optimized GeoTIFF: Float32, nodata -9999, statistics, averaged overviews unless left out,
 /// everything inside the file; side files of an earlier raster of that name are removed. The same grid gives
 /// the same bytes. The file is read again before it takes its place. A grid that is moved in is not copied.
 /// Errors: BadData for a grid without any

@@ -87,6 +87,13 @@ class HeightInterpolator {
     /// Of kriging: what it takes the ground for, with the nugget and the sill that foretell points left out
     /// best. Nothing of the other methods.
     [[nodiscard]] virtual std::optional<FittedVariogram> variogram() const { return std::nullopt; }
+    /// Over which distance the errors of the heights of a grid hang together: range of the spherical
+    /// correlogram that has the integral over the plane of the errors' own. From pairs of up to 48 cells,
+    /// spread evenly, with places around them. Nothing of a method without a variance, 0 where nothing is
+    /// shared.
+    [[nodiscard]] virtual std::optional<double> errorRange(const ElevationGrid&) const {
+        return std::nullopt;
+    }
 
   protected:
     HeightInterpolator() = default;

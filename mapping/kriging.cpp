@@ -13,6 +13,7 @@
 #include "mapping/order_statistics.hpp"
 #include "mapping/plan_kd_tree.hpp"
 #include "mapping/variogram.hpp"
+#include "survey/frames.hpp"
 
 namespace terrawalk {
 namespace {
@@ -26,7 +27,10 @@ constexpr std::size_t kMostLeftOut = 2000;
 constexpr std::size_t kMostToLearnFrom = 400;
 // Of four: nuggets that are tried, over what the ground differs by at the usual distance from a point.
 constexpr int kLeastNuggetPower = -6, kGreatestNuggetPower = 3;
-constexpr std::size_t kAround = 4;  // times the neighbours: how far about a point left out places may lie
+// Pairs of places for the range of the errors.
+constexpr std::size_t kErrorPlaces = 48, kErrorRings = 12, kErrorDirections = 6;
+constexpr double kErrorReach = 2.0;  // of neighbourhoods: beyond it two places share no point
+constexpr std::size_t kAround = 4;   // times the neighbours: how far about a point left out places may lie
 // A mean square beyond this says that the variogram does not fit at all.
 constexpr double kLeastFactor = 0.05, kGreatestFactor = 20.0;
 
@@ -123,6 +127,45 @@ class Kriging final : public HeightInterpolator {
     }
 
     [[nodiscard]] std::optional<VarianceScale> varianceScale() const override { return scale_; }
+
+    [[nodiscard]] std::optional<double> errorRange(const ElevationGrid& heights) const override {
+        std::vector<Eigen::Vector2d> places_m;
+        for (const std::size_t cell : cellsSpread(heights, kErrorPlaces)) {
+            const GridGeometry& g = heights.geometry;
+            places_m.emplace_back(g.centreX(cell % g.columns), g.centreY(cell / g.columns));
+        }
+        std::vector<Foretold> at;
+        std::vector<double> reaches_m;
+        Workspace w;
+        for (const Eigen::Vector2d& place : places_m) {
+            at.push_back(foretoldAt(place, w));
+            reaches_m.push_back(std::sqrt(at.back().near.back().squared_distance_m2));
+        }
+        if (at.empty()) return std::nullopt;
+        const double ring_m = kErrorReach * median(std::move(reaches_m)) / static_cast<double>(kErrorRings);
+        double integral_m2 = 0.0;
+        for (std::size_t ring = 0; ring < kErrorRings; ++ring) {
+            const double distance_m = (static_cast<double>(ring) + 0.5) * ring_m;
+            double shared_m2 = 0.0, all_m2 = 0.0;
+            for (std::size_t i = 0; i < at.size(); ++i) {
+                for (std::size_t k = 0; k < kErrorDirections; ++k) {
+                    const double turns = static_cast<double>(k) / static_cast<double>(kErrorDirections) +
+                                         0.618034 * static_cast<double>(i + ring);
+                    const double angle = 2.0 * kPi * turns;
+                    const Eigen::Vector2d place =
+                        at[i].place_m + distance_m * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+                    const auto cell = heights.geometry.cellAt(place.x(), place.y());
+                    if (!cell || std::isnan(heights.heights_m[*cell])) continue;
+                    const Foretold other = foretoldAt(place, w);
+                    shared_m2 += covariance_m2(at[i], other);
+                    all_m2 += std::sqrt(at[i].variance_m2 * other.variance_m2);
+                }
+            }
+            if (all_m2 > 0.0) integral_m2 += shared_m2 / all_m2 * 2.0 * kPi * distance_m * ring_m;
+        }
+        // A spherical correlogram has a fifth of the area of the circle of its range.
+        return std::sqrt(5.0 * std::max(integral_m2, 0.0) / kPi);
+    }
     [[nodiscard]] std::optional<FittedVariogram> variogram() const override {
         return FittedVariogram{model_.variogram, pairs_};
     }
@@ -145,10 +188,73 @@ class Kriging final : public HeightInterpolator {
         std::vector<Neighbour> near;
         Eigen::MatrixXd system;
         Eigen::VectorXd right;
+        Eigen::VectorXd weights;  ///< of the neighbours, and last the multiplier
         Eigen::PartialPivLU<Eigen::MatrixXd> factor;
         double noise_m2 = 0.0;      ///< part of the variance of the last estimate
         double structure_m2 = 0.0;  ///< and the rest of it
     };
+
+    /// A place, and what its height is made of.
+    struct Foretold {
+        Eigen::Vector2d place_m;
+        std::vector<Neighbour> near;
+        Eigen::VectorXd weights;
+        double variance_m2 = 0.0;
+    };
+
+    [[nodiscard]] Foretold foretoldAt(const Eigen::Vector2d& place_m, Workspace& w) const {
+        tree_.nearest(place_m, neighbours_, w.near);
+        const double variance_m2 = estimateAt(w.near, model_, w).variance_m2;
+        return {place_m, w.near, w.weights, variance_m2};
+    }
+
+    /// Of the errors at two places: each is a difference of heights that the variogram tells, and shares the
+    /// noise of the heights that both are made of.
+    [[nodiscard]] double covariance_m2(const Foretold& a, const Foretold& b) const {
+        const auto structure_m2 = [&](const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
+            return model_.variogram.structureAt((p - q).norm());
+        };
+        double structure = -structure_m2(a.place_m, b.place_m), noise = 0.0;
+        for (std::size_t j = 0; j < b.near.size(); ++j) {
+            const Eigen::Vector2d place = points_.points_m[b.near[j].point].head<2>();
+            structure += b.weights[static_cast<Eigen::Index>(j)] * structure_m2(a.place_m, place);
+        }
+        for (std::size_t i = 0; i < a.near.size(); ++i) {
+            const std::uint32_t point = a.near[i].point;
+            const Eigen::Vector2d place = points_.points_m[point].head<2>();
+            const double weight = a.weights[static_cast<Eigen::Index>(i)];
+            double others = structure_m2(place, b.place_m);
+            for (std::size_t j = 0; j < b.near.size(); ++j) {
+                const double share = b.weights[static_cast<Eigen::Index>(j)];
+                if (b.near[j].point == point) {
+                    noise += weight * share * errorVariance_m2(point, model_);
+                } else {
+                    others -= share * structure_m2(place, points_.points_m[b.near[j].point].head<2>());
+                }
+            }
+            structure += weight * others;
+        }
+        return scale_ ? scale_->noise * noise + scale_->structure * structure : noise + structure;
+    }
+
+    /// Cells with a height, spread evenly over the list of them.
+    [[nodiscard]] static std::vector<std::size_t> cellsSpread(const ElevationGrid& heights,
+                                                              std::size_t most) {
+        const auto known = [&](std::size_t cell) {
+            return !std::isnan(heights.heights_m[cell]);
+        };
+        std::size_t count = 0;
+        for (std::size_t cell = 0; cell < heights.heights_m.size(); ++cell) count += known(cell) ? 1 : 0;
+        std::vector<std::size_t> spread;
+        const std::size_t wanted = std::min(count, most);
+        std::size_t seen = 0;
+        for (std::size_t cell = 0; cell < heights.heights_m.size() && spread.size() < wanted; ++cell) {
+            if (!known(cell)) continue;
+            // The middle of each of so many equal parts.
+            if (seen++ == (2 * spread.size() + 1) * count / (2 * wanted)) spread.push_back(cell);
+        }
+        return spread;
+    }
 
     /// A point, and those that it shall be foretold from, the nearest first.
     struct PointLeftOut {
@@ -268,7 +374,8 @@ class Kriging final : public HeightInterpolator {
         }
         w.system(count, count) = 0.0;
         w.factor.compute(w.system);
-        const Eigen::VectorXd weights = w.factor.solve(w.right);
+        w.weights = w.factor.solve(w.right);
+        const Eigen::VectorXd& weights = w.weights;
         const double base = points_.points_m[near.front().point].z();
         HeightEstimate estimate{base, weights[count]};
         for (Eigen::Index i = 0; i < count; ++i) {

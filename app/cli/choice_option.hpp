@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,18 @@ inline CLI::Validator aboveZero() {
             "POSITIVE"};
 }
 
+/// Takes one of some names, in any case, and tells all of them otherwise.
+template <class Enum>
+CLI::Validator oneOf(const std::map<std::string, Enum>& by_name, const std::string& list) {
+    return {[by_name, list](std::string& text) {
+                const auto found = by_name.find(CLI::detail::to_lower(text));
+                if (found == by_name.end()) return "must be one of " + list + ", not " + text;
+                text = std::to_string(static_cast<std::underlying_type_t<Enum>>(found->second));
+                return std::string();
+            },
+            "NAME"};
+}
+
 /// An option that takes one of some names.
 template <class Enum, std::size_t n>
 CLI::Option* addChoice(CLI::App& command, const std::string& option, Enum& value,
@@ -33,7 +46,7 @@ CLI::Option* addChoice(CLI::App& command, const std::string& option, Enum& value
         list += (list.empty() ? "" : ", ") + std::string(text);
     }
     return command.add_option(option, value, meaning + ": " + list)
-        ->transform(CLI::Transformer(by_name, CLI::ignore_case))
+        ->transform(oneOf(by_name, list))
         ->option_text("NAME [" + std::string(name(value)) + "]");
 }
 
@@ -49,7 +62,7 @@ CLI::Option* addChoices(CLI::App& command, const std::string& option, std::vecto
         list += (list.empty() ? "" : ", ") + std::string(text);
     }
     return command.add_option(option, values, meaning + ": " + list)
-        ->transform(CLI::CheckedTransformer(by_name, CLI::ignore_case))
+        ->transform(oneOf(by_name, list))
         ->delimiter(',')
         ->allow_extra_args(false)
         ->option_text("NAME,...");

@@ -73,6 +73,13 @@ void addSurfaceOptions(CLI::App& command, SurfaceRequest& r) {
         "--multiband", r.multiband,
         "Write heights and standard errors in one file as well, bands in the order of BAG; kriging "
         "has them");
+    addChoice(
+        command, "--compression", r.storage.compression, kRasterCompressions,
+        "How cells are packed in the GeoTIFF; deflate is the smallest, none the fastest, and zstd in between "
+        "needs a libtiff of 2018 or later");
+    command.add_flag_callback(
+        "--no-overviews", [&r] { r.storage.overviews = false; },
+        "Leave out the smaller rasters in the file, which let programs draw it fast when zoomed out");
     command.add_option("--longest-edge", r.model.longest_edge_m,
                        "Triangles with a longer edge count as gap and stay empty [from the points]");
     command.add_option("--crs", r.crs, "CRS of the points, e.g. EPSG:2994 [the file's own]");

@@ -17,7 +17,8 @@ constexpr double kLabelCells = 3.0;  // height of a label in DXF
 
 /// The standard errors that were named, or those that lie beside the DEM.
 Result<std::optional<ElevationGrid>> sigmasFor(const ContourRequest& request, const DemFile& dem,
-                                               std::filesystem::path& used, const std::stop_token& stop) {
+                                               std::filesystem::path& used, std::string& note,
+                                               const std::stop_token& stop) {
     used = request.uncertainty;
     if (used.empty()) {
         used = request.dem.parent_path() / (request.dem.stem().string() + "_uncertainty.tif");
@@ -25,8 +26,16 @@ Result<std::optional<ElevationGrid>> sigmasFor(const ContourRequest& request, co
     }
     if (request.options.smoothing_cells == 0.0) used.clear();
     if (used.empty()) return std::nullopt;
-    auto read = readAlike(used, dem, stop);
-    if (read) return std::move(*read);
+    auto read = readErrorsAlike(used, dem, stop);
+    if (read) {
+        if (mayBelongTo(*read, dem.grid)) return std::move(read->grid);
+        note = fmt::format("the standard errors of {} say that they are of other heights{}",
+                           printable(used.filename().string()),
+                           request.uncertainty.empty() ? ", and are not used" : "");
+        if (!request.uncertainty.empty()) return std::move(read->grid);
+        used.clear();
+        return std::nullopt;
+    }
     if (!request.uncertainty.empty() || read.error().kind == ErrorKind::Cancelled) {
         return tl::unexpected(read.error());
     }
@@ -45,7 +54,7 @@ Result<ContourOutcome> makeContours(const ContourRequest& request, Progress& pro
     const auto dem = readDem(request.dem, stop);
     if (!dem) return tl::unexpected(dem.error());
     ContourOutcome outcome{request, dem->crs.unit.symbol};
-    const auto sigmas = sigmasFor(request, *dem, outcome.uncertainty, stop);
+    const auto sigmas = sigmasFor(request, *dem, outcome.uncertainty, outcome.note, stop);
     if (!sigmas) return tl::unexpected(sigmas.error());
     ContourOptions options = request.options;
     if (*sigmas) options.sigmas = &**sigmas;
@@ -82,16 +91,17 @@ Result<ContourOutcome> makeContours(const ContourRequest& request, Progress& pro
 
 std::string toText(const ContourOutcome& o) {
     return fmt::format(
-        "Contours    {} at {} from {:g} to {:g} {}, {:.1f} {} long\nSmoothing   {:g} cells{}, moved the "
+        "Contours    {} at {} from {:g} to {:g} {}, {:.1f} {} long\nSmoothing   {:g} {}{}, moved the "
         "heights "
-        "by {:.4f} {} (RMS)\nWritten to {}\n",
+        "by {:.4f} {} (RMS)\n{}Written to {}\n",
         counted(o.lines, "line"), counted(o.levels, "level"), o.lowest, o.highest, o.unit, o.length, o.unit,
-        o.request.options.smoothing_cells,
+        o.request.options.smoothing_cells, o.request.options.smoothing_cells == 1.0 ? "cell" : "cells",
         o.uncertainty.empty()
             ? ""
             : fmt::format(", and {:g} within the standard errors of {}", kSmoothingInErrors_cells,
                           printable(o.uncertainty.filename().string())),
-        o.smoothing_rms, o.unit, printable(o.request.output.string()));
+        o.smoothing_rms, o.unit, o.note.empty() ? "" : fmt::format("Note: {}\n", o.note),
+        printable(o.request.output.string()));
 }
 
 std::string toJson(const ContourOutcome& o) {
@@ -104,6 +114,7 @@ std::string toJson(const ContourOutcome& o) {
                                           {"smoothing_cells", o.request.options.smoothing_cells},
                                           {"smoothing_rms", o.smoothing_rms},
                                           {"uncertainty", o.uncertainty.string()},
+                                          {"note", o.note},
                                           {"lines", o.lines},
                                           {"levels", o.levels},
                                           {"lowest", o.lowest},

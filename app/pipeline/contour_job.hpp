@@ -15,7 +15,7 @@ struct ContourRequest {
     std::filesystem::path dem;
     std::filesystem::path output;  ///< .gpkg, .geojson or .dxf
     /// Raster of standard errors that heights are smoothed within; empty: DEM_uncertainty.tif beside the DEM,
-    /// where there is one on the same cells.
+    /// where there is one on the same cells that does not say that it belongs to other heights.
     std::filesystem::path uncertainty;
     ContourOptions options;
 };
@@ -30,6 +30,7 @@ struct ContourOutcome {
     double length = 0.0;  ///< of all lines
     double smoothing_rms = 0.0;
     std::filesystem::path uncertainty;  ///< that was used; empty: none
+    std::string note;                   ///< why one that lies beside the DEM was not used, or what is odd
 };
 
 /// Errors: as readDem(), contourLines() and writeContours().

@@ -77,9 +77,9 @@ Result<DifferenceOutcome> compareDems(const DifferenceRequest& request, Progress
     if (!earlier) return tl::unexpected(earlier.error());
     ElevationGrid change = later->grid;
     for (std::size_t i = 0; i < change.heights_m.size(); ++i) change.heights_m[i] -= earlier->heights_m[i];
-    auto sigmas = combinedSigmas(
-        {{request.earlier_uncertainty, request.sigma}, {request.later_uncertainty, request.sigma}}, *later,
-        change, stop);
+    auto sigmas = combinedSigmas({{request.earlier_uncertainty, request.sigma, &*earlier},
+                                  {request.later_uncertainty, request.sigma, &later->grid}},
+                                 *later, change, stop);
     if (!sigmas) return tl::unexpected(sigmas.error());
     progress.report(0.4, "comparing");
     const double range = request.correlation_range.value_or(sigmas->correlation_range);
@@ -89,8 +89,15 @@ Result<DifferenceOutcome> compareDems(const DifferenceRequest& request, Progress
     const DemDifference& d = *compared;
     if (d.all.cells == 0) return badData("no cell has a height in both", request.later);
     if (stop.stop_requested()) return cancelled();
-    DifferenceOutcome outcome{
-        request, later->crs.unit.symbol, d.all, d.significant, d.raised, d.lowered, range, {}};
+    DifferenceOutcome outcome{request,
+                              later->crs.unit.symbol,
+                              d.all,
+                              d.significant,
+                              d.raised,
+                              d.lowered,
+                              range,
+                              {},
+                              std::move(sigmas->of_other_heights)};
     outcome.files = {request.output, besideOutput(request, "_significance.tif"),
                      besideOutput(request, "_volumes.csv")};
     progress.report(0.7, "writing");
@@ -127,6 +134,7 @@ std::string toText(const DifferenceOutcome& o) {
         text += fmt::format("{:<12}{:<9}{:>16.3f}{:>16.3f}{:>14.2f}\n", row.cells, row.part, row.volume,
                             row.sigma, row.area);
     }
+    text += notesOn(o.of_other_heights);
     for (const fs::path& file : o.files) text += "Written to " + printable(file.string()) + "\n";
     return text;
 }

@@ -34,6 +34,7 @@ struct DifferenceOutcome {
     std::size_t lowered = 0;
     double correlation_range = 0.0;  ///< that was used
     std::vector<std::filesystem::path> files;
+    std::vector<std::filesystem::path> of_other_heights;  ///< rasters of sigmas that say so of themselves
 };
 
 /// Writes OUTPUT, the later heights less the earlier; OUTPUT's stem + "_significance.tif", +1 and -1 where

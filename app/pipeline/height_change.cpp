@@ -112,7 +112,9 @@ Result<HeightChange> changeSince(const Products& later, const fs::path& earlier,
         return compare(later, dem->grid, nullptr, earlier.filename().string(), stop);
     const auto sigmas = readDem(beside, stop);
     if (!sigmas) return tl::unexpected(sigmas.error());
-    return compare(later, dem->grid, &sigmas->grid, earlier.filename().string(), stop);
+    // A DEM made anew beside the standard errors of an earlier one.
+    const bool of_these = mayBelongTo(*sigmas, dem->grid);
+    return compare(later, dem->grid, of_these ? &sigmas->grid : nullptr, earlier.filename().string(), stop);
 }
 
 }  // namespace terrawalk

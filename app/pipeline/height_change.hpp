@@ -26,8 +26,9 @@ struct HeightChange {
 /// @param name  of the earlier results
 [[nodiscard]] Result<HeightChange> changeSince(const Products& later, const Products& earlier,
                                                std::string name, const std::stop_token& stop);
-/// Against a DEM, and the sigmas beside it where there is a raster of its name and "_uncertainty". Errors
-/// also: BadData for a raster in another CRS, and as readDem().
+/// Against a DEM, and the sigmas beside it where there is a raster of its name and "_uncertainty" that does
+/// not say that it belongs to other heights. Errors also: BadData for a raster in another CRS, and as
+/// readDem().
 [[nodiscard]] Result<HeightChange> changeSince(const Products& later, const std::filesystem::path& earlier,
                                                const std::stop_token& stop);
 

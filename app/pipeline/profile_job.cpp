@@ -140,7 +140,13 @@ Result<ProfileOutcome> makeProfile(const ProfileRequest& request, Progress& prog
     for (const ProfilePoint& p : profile) {
         if (p.height) heights.push_back(*p.height);
     }
-    if (heights.empty()) return badData("the line meets no height of the DEM", request.dem);
+    if (heights.empty()) {
+        const GridGeometry& g = dem->grid.geometry;
+        return badData("the line meets no height of the DEM", request.dem, 0,
+                       fmt::format("the DEM reaches from x {:.2f} to {:.2f} and y {:.2f} to {:.2f}", g.west_m,
+                                   g.west_m + g.cell_m * static_cast<double>(g.columns),
+                                   g.north_m - g.cell_m * static_cast<double>(g.rows), g.north_m));
+    }
     outcome.points = profile.size();
     outcome.without_height = profile.size() - heights.size();
     outcome.lowest = *std::min_element(heights.begin(), heights.end());

@@ -17,19 +17,6 @@ namespace fs = std::filesystem;
 constexpr double kShareOfMemory = 0.9;
 constexpr std::size_t kCellsBetweenStops = std::size_t{1} << 20U;
 
-Result<DemFile> readOnCellsOf(const fs::path& file, const DemFile& dem, const std::stop_token& stop) {
-    auto other = readDem(file, stop);
-    if (!other) return tl::unexpected(other.error());
-    if (!(other->grid.geometry == dem.grid.geometry)) {
-        return badData("the cells are not those of the DEM", file, 0,
-                       "grid both with the same --resolution and --extent, or warp one to the other");
-    }
-    if (other->crs.name != dem.crs.name) {
-        return badData(fmt::format("the CRS is {}, that of the DEM {}", other->crs.name, dem.crs.name), file);
-    }
-    return other;
-}
-
 /// `sum.sigmas` are variances yet.
 Result<void> addVariance(const SigmaSource& source, const DemFile& dem, const ElevationGrid& difference,
                          CombinedSigmas& sum, const std::stop_token& stop) {
@@ -40,8 +27,11 @@ Result<void> addVariance(const SigmaSource& source, const DemFile& dem, const El
         }
         return {};
     }
-    const auto file = readOnCellsOf(source.raster, dem, stop);
+    const auto file = readErrorsAlike(source.raster, dem, stop);
     if (!file) return tl::unexpected(file.error());
+    if (source.heights != nullptr && !mayBelongTo(*file, *source.heights)) {
+        sum.of_other_heights.push_back(source.raster);
+    }
     sum.correlation_range = std::max(sum.correlation_range, file->correlation_range);
     for (std::size_t cell = 0; cell < sum.sigmas.size(); ++cell) {
         if (cell % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
@@ -55,8 +45,21 @@ Result<void> addVariance(const SigmaSource& source, const DemFile& dem, const El
 
 }  // namespace
 
+Result<DemFile> readErrorsAlike(const fs::path& file, const DemFile& dem, const std::stop_token& stop) {
+    auto other = readDem(file, stop);
+    if (!other) return tl::unexpected(other.error());
+    if (!(other->grid.geometry == dem.grid.geometry)) {
+        return badData("the cells are not those of the DEM", file, 0,
+                       "grid both with the same --resolution and --extent, or warp one to the other");
+    }
+    if (other->crs.name != dem.crs.name) {
+        return badData(fmt::format("the CRS is {}, that of the DEM {}", other->crs.name, dem.crs.name), file);
+    }
+    return other;
+}
+
 Result<ElevationGrid> readAlike(const fs::path& file, const DemFile& dem, const std::stop_token& stop) {
-    auto other = readOnCellsOf(file, dem, stop);
+    auto other = readErrorsAlike(file, dem, stop);
     if (!other) return tl::unexpected(other.error());
     return std::move(other->grid);
 }
@@ -77,6 +80,15 @@ Result<CombinedSigmas> combinedSigmas(const std::vector<SigmaSource>& sources, c
         combined.sigmas[cell] = std::sqrt(combined.sigmas[cell]);
     }
     return combined;
+}
+
+std::string notesOn(const std::vector<fs::path>& of_other_heights) {
+    std::string text;
+    for (const fs::path& file : of_other_heights) {
+        text += fmt::format("Note: the standard errors of {} say that they are of other heights\n",
+                            printable(file.filename().string()));
+    }
+    return text;
 }
 
 DemDescription describeDerived(const DemFile& dem, const std::string& title, const std::string& quantity,

@@ -15,6 +15,7 @@
 #include "app/pipeline/version.hpp"
 #include "io/output_folder.hpp"
 #include "io/read_breaklines.hpp"
+#include "io/read_dem.hpp"
 #include "io/read_points.hpp"
 #include "io/write_exchange.hpp"
 #include "io/write_products.hpp"
@@ -204,7 +205,9 @@ Result<InterpolatedGrid> gridOf(SurfaceInput input, GroundTriangles ground, cons
     if (const auto& scale = surface->varianceScale()) report.notes.push_back(inWords(*scale));
     report.variogram = summaryOf(surface->variogram());
     if (method == InterpolationMethod::Linear) input = {};  // the triangles hold all of it
-    return surface->grid(geometry, gridding, stop);
+    auto grid = surface->grid(geometry, gridding, stop);
+    if (grid) report.error_range = surface->errorRange(grid->heights);
+    return grid;
 }
 
 void summarize(const ElevationGrid& grid, SurfaceOutcome& report) {
@@ -241,13 +244,21 @@ Result<void> writeFiles(InterpolatedGrid grid, const std::vector<TerraceEdge>& e
                                .metadata = {{"METHOD", std::string(name(report.method))},
                                             {"POINTS", std::to_string(report.points_used)},
                                             {kPointsSha256, report.points_sha256}},
-                               .unit = report.crs.unit.symbol};
+                               .unit = report.crs.unit.symbol,
+                               .storage = request.storage};
     report.files = {request.output};
     std::optional<ElevationGrid> errors;
-    if (!grid.variances_m2.empty()) errors = standardErrors(grid);
+    DemDescription of_errors = description;
+    if (!grid.variances_m2.empty()) {
+        errors = standardErrors(grid);
+        of_errors.metadata.emplace_back(kHeightsSha256, sha256OfHeights(grid.heights));
+        if (report.error_range) {
+            of_errors.metadata.emplace_back(kCorrelationRange, fmt::format("{:.3f}", *report.error_range));
+        }
+    }
     if (request.multiband && errors) {
         report.files.push_back(multibandFile(request));
-        if (auto done = writeDemWithUncertainty(grid.heights, errors->heights_m, description,
+        if (auto done = writeDemWithUncertainty(grid.heights, errors->heights_m, of_errors,
                                                 report.files.back(), stop);
             !done) {
             return done;
@@ -266,10 +277,10 @@ Result<void> writeFiles(InterpolatedGrid grid, const std::vector<TerraceEdge>& e
         noteLeftOver(uncertaintyFile(request),
                      fmt::format("method {} gives no uncertainty", name(report.method)), report.notes);
     } else {
-        description.quantity = "Standard error of kriging";
-        description.title = fmt::format("{}, standard error", request.points.stem().string());
+        of_errors.quantity = "Standard error of kriging";
+        of_errors.title = fmt::format("{}, standard error", request.points.stem().string());
         report.files.push_back(uncertaintyFile(request));
-        if (auto done = writeDem(std::move(*errors), description, report.files.back(), stop); !done)
+        if (auto done = writeDem(std::move(*errors), of_errors, report.files.back(), stop); !done)
             return done;
     }
     if (report.cleaned) {
@@ -481,6 +492,10 @@ std::string toText(const SurfaceOutcome& report) {
                             report.terrace_edges.median_step_m, unit);
     }
     if (report.variogram) text += fmt::format("Variogram   {}\n", inWords(*report.variogram, unit));
+    if (report.error_range) {
+        text +=
+            fmt::format("Errors      of heights hang together over {:.3g} {}\n", *report.error_range, unit);
+    }
     if (report.validation) text += validationText(*report.validation, unit);
     for (const std::string& note : report.notes) text += "Note: " + note + "\n";
     for (const fs::path& file : report.files) text += "Written to " + file.string() + "\n";
@@ -524,10 +539,13 @@ std::string toJson(const SurfaceOutcome& report) {
                                                             : nlohmann::ordered_json(nullptr)},
         {"least_height", report.least_height},
         {"greatest_height", report.greatest_height},
+        {"compression", name(report.request.storage.compression)},
+        {"overviews", report.request.storage.overviews},
         {"seed", report.request.model.seed},
         {"notes", report.notes},
         {"files", files}};
     if (report.variogram) document["variogram"] = variogramJson(*report.variogram);
+    if (report.error_range) document["error_correlation_range"] = *report.error_range;
     if (report.validation) document["cross_validation"] = validationJson(*report.validation);
     return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

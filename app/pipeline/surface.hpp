@@ -10,6 +10,7 @@
 #include "app/pipeline/surface_model.hpp"
 #include "io/coordinate_system.hpp"
 #include "io/write_exchange.hpp"
+#include "io/write_products.hpp"
 #include "mapping/cross_validation.hpp"
 #include "mapping/point_cleaning.hpp"
 #include "survey/elevation_grid.hpp"
@@ -32,6 +33,7 @@ struct SurfaceRequest {
     std::string unit;                             ///< "m", "ft", "us-ft"; empty: by CRS or file, else metre
     std::vector<int> las_classes;
     bool multiband = false;  ///< heights and their standard errors in one file as well
+    RasterStorage storage;   ///< of all rasters that are written
 };
 
 /// What was made, and how.
@@ -54,6 +56,7 @@ struct SurfaceOutcome {
     double memory_need_bytes = 0.0;
     std::optional<CrossValidation> validation;
     std::optional<VariogramSummary> variogram;  ///< of kriging
+    std::optional<double> error_range;          ///< the same: its errors hang together over this distance
     std::vector<std::string> notes;
     std::vector<std::filesystem::path> files;
     std::string points_sha256;

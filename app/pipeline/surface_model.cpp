@@ -214,6 +214,10 @@ std::optional<FittedVariogram> SurfaceModel::variogram() const {
     return heights_ ? heights_->variogram() : std::nullopt;
 }
 
+std::optional<double> SurfaceModel::errorRange(const ElevationGrid& heights) const {
+    return heights_ ? heights_->errorRange(heights) : std::nullopt;
+}
+
 Result<InterpolatedGrid> SurfaceModel::grid(const GridGeometry& geometry, Progress& progress,
                                             std::stop_token stop) const {
     PartialProgress masking(progress, 0.0, heights_ ? 0.2 : 1.0);

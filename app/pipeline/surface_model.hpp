@@ -108,6 +108,8 @@ class SurfaceModel {
     [[nodiscard]] const std::optional<VarianceScale>& varianceScale() const { return variance_scale_; }
     /// Of kriging.
     [[nodiscard]] std::optional<FittedVariogram> variogram() const;
+    /// Of kriging: over which distance the errors of a grid of it hang together.
+    [[nodiscard]] std::optional<double> errorRange(const ElevationGrid& heights) const;
     /// Cells outside the ground's triangles stay empty.
     [[nodiscard]] Result<InterpolatedGrid> grid(const GridGeometry& geometry, Progress& progress,
                                                 std::stop_token stop) const;

@@ -37,6 +37,7 @@ Result<VolumeOutcome> measureVolume(const VolumeRequest& request, Progress& prog
     if (!dem) return tl::unexpected(dem.error());
     ElevationGrid difference = dem->grid;
     std::size_t cells_in_one = 0;
+    ElevationGrid against;
     if (request.plane) {
         for (std::size_t cell = 0; cell < difference.heights_m.size(); ++cell) {
             if (cell % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
@@ -44,17 +45,18 @@ Result<VolumeOutcome> measureVolume(const VolumeRequest& request, Progress& prog
             height = static_cast<float>(static_cast<double>(height) - *request.plane);
         }
     } else {
-        const auto other = readAlike(request.against, *dem, stop);
+        auto other = readAlike(request.against, *dem, stop);
         if (!other) return tl::unexpected(other.error());
         for (std::size_t cell = 0; cell < difference.heights_m.size(); ++cell) {
             if (cell % kCellsBetweenStops == 0 && stop.stop_requested()) return cancelled();
             cells_in_one += std::isnan(difference.heights_m[cell]) != std::isnan(other->heights_m[cell]);
             difference.heights_m[cell] -= other->heights_m[cell];
         }
+        if (!request.against_uncertainty.empty()) against = std::move(*other);
     }
     VolumeErrorModel errors;
-    std::vector<SigmaSource> sources{{request.uncertainty, request.sigma}};
-    if (!request.plane) sources.push_back({request.against_uncertainty, request.sigma});
+    std::vector<SigmaSource> sources{{request.uncertainty, request.sigma, &dem->grid}};
+    if (!request.plane) sources.push_back({request.against_uncertainty, request.sigma, &against});
     auto sigmas = combinedSigmas(sources, *dem, difference, stop);
     if (!sigmas) return tl::unexpected(sigmas.error());
     errors.sigmas_m = std::move(sigmas->sigmas);
@@ -63,7 +65,9 @@ Result<VolumeOutcome> measureVolume(const VolumeRequest& request, Progress& prog
     progress.report(0.6, "summing");
     const auto volume = volumeOf(difference, errors, stop);
     if (!volume) return tl::unexpected(volume.error());
-    VolumeOutcome outcome{request, dem->crs.unit.symbol, *volume, errors.correlation_range_m, cells_in_one};
+    VolumeOutcome outcome{request,      dem->crs.unit.symbol,
+                          *volume,      errors.correlation_range_m,
+                          cells_in_one, std::move(sigmas->of_other_heights)};
     if (outcome.volume.cells == 0) {
         return badData(request.plane ? "no cell has a height" : "no cell has a height in both", request.dem);
     }
@@ -86,6 +90,7 @@ std::string toText(const VolumeOutcome& outcome) {
         text +=
             fmt::format("Note: {} cells with a height in one DEM only are left out\n", outcome.cells_in_one);
     }
+    text += notesOn(outcome.of_other_heights);
     if (outcome.correlation_range > 0.0) {
         text += fmt::format("Errors  of heights hang together over {:.3g} {}{}\n", outcome.correlation_range,
                             u, outcome.request.correlation_range ? "" : ", as the uncertainty says");

@@ -30,6 +30,7 @@ struct VolumeOutcome {
     VolumeResult volume;
     double correlation_range = 0.0;  ///< that was used
     std::size_t cells_in_one = 0;    ///< with a height in one DEM and none in the other: left out
+    std::vector<std::filesystem::path> of_other_heights;  ///< rasters of sigmas that say so of themselves
 };
 
 /// Errors: BadData for rasters that cannot be read, that have other cells or another CRS than the DEM, that

@@ -7,6 +7,7 @@
 #include "app/pipeline/process.hpp"
 #include "app/pipeline/relief.hpp"
 #include "app/pipeline/version.hpp"
+#include "io/read_dem.hpp"
 #include "io/write_products.hpp"
 
 namespace terrawalk {
@@ -113,6 +114,7 @@ DemDescription describeErrors(const Products& products, const Survey& survey) {
     DemDescription description = describeDem(products, survey);
     description.metadata.emplace_back(kCorrelationRange,
                                       fmt::format("{:.3f}", products.uncertainty->correlation_range_m));
+    description.metadata.emplace_back(kHeightsSha256, sha256OfHeights(products.dem));
     return description;
 }
 

@@ -89,6 +89,27 @@ TEST(ContourCommand, SmoothsWithinTheStandardErrorsThatLieBesideTheDem) {
     EXPECT_EQ(calm.at("uncertainty"), sigma);
     EXPECT_LT(calm.at("length").get<double>(), 0.5 * noisy);
     EXPECT_EQ(contours({"--smoothing", "0"}).at("uncertainty"), "");
+    // A DEM made anew beside the standard errors of an earlier one.
+    const auto hash = sha256OfHeights(read(dem));
+    const auto flat = [](double, double) {
+        return 0.05;
+    };
+    made(sigma, flat, {{kHeightsSha256, hash}});
+    EXPECT_EQ(contours({}).at("length"), calm.at("length"));
+    EXPECT_EQ(contours({}).at("note"), "");
+    made(sigma, flat, {{kHeightsSha256, std::string(64, '0')}});
+    const json passed_over = contours({});
+    EXPECT_EQ(passed_over.at("length").get<double>(), noisy);
+    EXPECT_EQ(passed_over.at("uncertainty"), "");
+    EXPECT_THAT(passed_over.at("note").get<std::string>(),
+                HasSubstr("dem_uncertainty.tif say that they are of other heights, and are not used"));
+    const json named = contours({"--uncertainty", sigma});
+    EXPECT_EQ(named.at("length"), calm.at("length"));
+    EXPECT_THAT(named.at("note").get<std::string>(), HasSubstr("of other heights"));
+    const std::vector<std::string> volume{"volume", dem, "--plane", "38", "--uncertainty", sigma};
+    EXPECT_THAT(terrawalk(volume).out, HasSubstr("Note: the standard errors of dem_uncertainty.tif say"));
+    made(sigma, flat, {{kHeightsSha256, hash}});
+    EXPECT_THAT(terrawalk(volume).out, testing::Not(HasSubstr("of other heights")));
     // What lies beside the DEM by chance is passed over, what is named is not.
     writeBytes(scratch / "dem_uncertainty.tif", "no raster");
     EXPECT_EQ(contours({}).at("length").get<double>(), noisy);

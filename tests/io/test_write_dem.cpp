@@ -188,9 +188,9 @@ TEST(WriteDem, IsACloudOptimizedGeoTiffThatSaysWhatItHolds) {
     int block_columns = 0;
     int block_rows = 0;
     band->GetBlockSize(&block_columns, &block_rows);
-    EXPECT_EQ(block_columns, 512);
-    EXPECT_EQ(block_rows, 512);
-    ASSERT_EQ(band->GetOverviewCount(), 2);
+    EXPECT_EQ(block_columns, 256);
+    EXPECT_EQ(block_rows, 256);
+    ASSERT_EQ(band->GetOverviewCount(), 3);
     EXPECT_EQ(band->GetOverview(0)->GetXSize(), 550);
     EXPECT_EQ(band->GetOverview(1)->GetXSize(), 275);
     EXPECT_THAT(namesIn(folder.path()), ElementsAre("dem.tif"));
@@ -209,6 +209,69 @@ TEST(WriteDem, OverviewsAreAveragesThatLeaveOutNodata) {
     ASSERT_EQ(half->RasterIO(GF_Read, 100, 50, 1, 1, &inside, 1, 1, GDT_Float32, 0, 0, nullptr), CE_None);
     EXPECT_NEAR(corner, (grid.at(0, 1) + grid.at(1, 0) + grid.at(1, 1)) / 3.0F, 1e-5);
     EXPECT_NEAR(inside, (grid.at(100, 200) + grid.at(101, 201)) / 2.0F, 1e-5);
+}
+
+// Sizes that are odd at every level: a cell of an overview then covers a little less than two.
+TEST(WriteDem, OverviewsOfOddSizesAreThoseOfGdal) {
+    const TemporaryFolder folder;
+    ElevationGrid grid = ramp(1023, 1101);
+    for (std::size_t i = 0; i < grid.heights_m.size(); i += 11) grid.heights_m[i] = kNoHeight;
+    write(grid, folder / "dem.tif");
+    const Dataset dataset = open(folder / "dem.tif");
+    const auto gdal = [&] {
+        Dataset copy(GetGDALDriverManager()->GetDriverByName("MEM")->CreateCopy("", dataset.get(), FALSE,
+                                                                                nullptr, nullptr, nullptr));
+        std::array<int, 3> factors{2, 4, 8};
+        EXPECT_EQ(copy->BuildOverviews("AVERAGE", 3, factors.data(), 0, nullptr, nullptr, nullptr), CE_None);
+        return copy;
+    }();
+    for (int level = 0; level < 3; ++level) {
+        GDALRasterBand* const ours = dataset->GetRasterBand(1)->GetOverview(level);
+        GDALRasterBand* const theirs = gdal->GetRasterBand(1)->GetOverview(level);
+        ASSERT_EQ(ours->GetXSize(), theirs->GetXSize());
+        ASSERT_EQ(ours->GetYSize(), theirs->GetYSize());
+        const auto cells = [](GDALRasterBand* band) {
+            std::vector<float> all(static_cast<std::size_t>(band->GetXSize()) *
+                                   static_cast<std::size_t>(band->GetYSize()));
+            EXPECT_EQ(band->RasterIO(GF_Read, 0, 0, band->GetXSize(), band->GetYSize(), all.data(),
+                                     band->GetXSize(), band->GetYSize(), GDT_Float32, 0, 0, nullptr),
+                      CE_None);
+            return all;
+        };
+        const auto a = cells(ours), b = cells(theirs);
+        // GDAL may take a coarse level from the finest, where cells without a height weigh otherwise: the
+        // ramp rises by 0.016 a cell.
+        for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], 0.005 * (1 << level)) << level;
+    }
+}
+
+TEST(WriteDem, PacksTheSameCellsInOtherWays) {
+    const TemporaryFolder folder;
+    ElevationGrid grid = ramp(700, 600);
+    grid.heights_m[5] = kNoHeight;
+    DemDescription what = description();
+    std::vector<float> expected;
+    std::uintmax_t bare_bytes = 0;
+    for (const auto& [compression, text] : kRasterCompressions) {
+        for (const bool overviews : {true, false}) {
+            what.storage = {compression, overviews};
+            write(grid, folder / "dem.tif", what);
+            const Dataset dataset = open(folder / "dem.tif");
+            ASSERT_TRUE(dataset);
+            const char* const packed = dataset->GetMetadataItem("COMPRESSION", "IMAGE_STRUCTURE");
+            EXPECT_EQ(packed == nullptr ? "none" : CPLString(packed).tolower(), text);
+            EXPECT_STREQ(dataset->GetMetadataItem("LAYOUT", "IMAGE_STRUCTURE"), "COG");
+            EXPECT_EQ(dataset->GetRasterBand(1)->GetOverviewCount(), overviews ? 2 : 0);
+            const std::vector<float> cells = cellsIn(*dataset);
+            if (expected.empty()) expected = cells;
+            EXPECT_EQ(cells, expected) << text;
+            const auto bytes = std::filesystem::file_size(folder / "dem.tif");
+            if (compression == RasterCompression::None && !overviews) bare_bytes = bytes;
+        }
+    }
+    // 3 x 3 tiles of 256, and little else.
+    EXPECT_GE(bare_bytes, 9u * 256u * 256u * 4u);
+    EXPECT_LT(bare_bytes, 9u * 256u * 256u * 4u + 8192u);
 }
 
 TEST(WriteDem, StatisticsInTheFileAreThoseOfAllCellsWithHeights) {

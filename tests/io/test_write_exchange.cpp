@@ -101,6 +101,16 @@ TEST(WriteDxf, GdalReadsEveryFace) {
     EXPECT_EQ(i, mesh.triangles.size());
 }
 
+TEST(WriteLandXml, SaysThatItsDateStandsForNone) {
+    const TemporaryFolder folder;
+    ExchangeDescription unknown = description();
+    unknown.date.clear();
+    ASSERT_TRUE(writeLandXml(terraces(), unknown, folder / "s.xml"));
+    CPLXMLTreeCloser tree(CPLParseXMLFile((folder / "s.xml").c_str()));
+    ASSERT_NE(tree.get(), nullptr);
+    EXPECT_THAT(CPLGetXMLValue(tree.get(), "=LandXML.Application.desc", ""), testing::HasSubstr("not known"));
+}
+
 TEST(WriteLandXml, AnXmlReaderFindsPointsAndFaces) {
     const TemporaryFolder folder;
     const TriangleMesh mesh = terraces();
@@ -111,6 +121,7 @@ TEST(WriteLandXml, AnXmlReaderFindsPointsAndFaces) {
     ASSERT_NE(root, nullptr);
     EXPECT_STREQ(CPLGetXMLValue(root, "xmlns", ""), "http://www.landxml.org/schema/LandXML-1.2");
     EXPECT_STREQ(CPLGetXMLValue(root, "date", ""), "2024-05-17");
+    EXPECT_STREQ(CPLGetXMLValue(root, "Application.desc", "none"), "none");
     EXPECT_STREQ(CPLGetXMLValue(root, "Units.Metric.linearUnit", ""), "meter");
     EXPECT_EQ(CPLGetXMLValue(root, "Surfaces.Surface.name", ""), description().title);
     OGRSpatialReference crs;

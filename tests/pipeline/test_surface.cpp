@@ -93,10 +93,17 @@ TEST(Surface, PutsHeightsAndErrorsInOneFileWhereKrigingHasThem) {
     EXPECT_GT(variogram.at("range").get<double>(), 0.0);
     EXPECT_GT(variogram.at("pairs").get<std::size_t>(), 100u);
     EXPECT_THAT(toText(*kriging), HasSubstr("Variogram"));
+    EXPECT_THAT(toText(*kriging), HasSubstr("hang together over"));
     EXPECT_FALSE(linear->variogram);
     // Its first band is the DEM's.
     const auto both = readDem(folder / "dem_multiband.tif", {}), alone = readDem(folder / "dem.tif", {});
     ASSERT_TRUE(both && alone);
+    const auto errors = readDem(folder / "dem_uncertainty.tif", {});
+    ASSERT_TRUE(errors);
+    EXPECT_EQ(errors->heights_sha256, sha256OfHeights(alone->grid));
+    EXPECT_TRUE(mayBelongTo(*errors, alone->grid));
+    EXPECT_NEAR(errors->correlation_range, kriging->error_range.value(), 6e-4);
+    EXPECT_EQ(both->correlation_range, errors->correlation_range);
     ASSERT_EQ(both->grid.geometry, alone->grid.geometry);
     for (std::size_t i = 0; i < alone->grid.heights_m.size(); ++i) {
         if (std::isnan(alone->grid.heights_m[i])) continue;
@@ -458,6 +465,104 @@ TEST(MemoryNeed, IsRefusedWithAResolutionThatFits) {
     EXPECT_THAT(checkMemory({10'000'000, 10, false}, 1e9, 1.0).error().cure, HasSubstr("thin"));
     ASSERT_TRUE(availableMemory_bytes());
     EXPECT_GT(*availableMemory_bytes(), 1e6);
+}
+
+TEST(Surface, SaysHowItsRastersArePacked) {
+    const TemporaryFolder folder;
+    writePlane(folder / "plane.csv", "x_m,y_m,z_m");
+    SurfaceRequest request;
+    request.points = folder / "plane.csv";
+    request.output = folder / "dem.tif";
+    request.resolution = 0.05;
+    request.model.method = InterpolationMethod::Linear;
+    request.model.cross_validate = false;
+    ASSERT_TRUE(surfaceOf(request));
+    const auto packed = readDem(folder / "dem.tif", {});
+    const auto bytes = std::filesystem::file_size(folder / "dem.tif");
+    request.storage = {RasterCompression::None, false};
+    ASSERT_TRUE(surfaceOf(request));
+    const auto bare = readDem(folder / "dem.tif", {});
+    ASSERT_TRUE(packed && bare);
+    EXPECT_EQ(sha256OfHeights(packed->grid), sha256OfHeights(bare->grid));
+    EXPECT_GT(std::filesystem::file_size(folder / "dem.tif"), 2 * bytes);
+    const auto report = nlohmann::json::parse(bytesOf(folder / "dem.json"));
+    EXPECT_EQ(report.at("compression"), "none");
+    EXPECT_EQ(report.at("overviews"), false);
+}
+
+// Volumes of kriged surfaces over ground drawn by lot: a sum of waves of many directions and lengths, with
+// noise in the heights. Each survey measures the volume above a plane over a square inside the points.
+TEST(Surface, ErrorBarsOfVolumesOfKrigingHoldTheTruth) {
+    constexpr int kSurveys = 40, kWaves = 40;
+    constexpr double kSide_m = 60.0, kNoise_m = 0.05;
+    double squares = 0.0, squares_independent = 0.0;
+    int held = 0;
+    for (int survey = 0; survey < kSurveys; ++survey) {
+        const TemporaryFolder folder;
+        RandomNumbers random(7100 + static_cast<std::uint64_t>(survey));
+        struct Wave {
+            double east, north, phase, height_m;
+        };
+        std::vector<Wave> waves;
+        for (int w = 0; w < kWaves; ++w) {
+            const double length_m = std::exp(random.uniform(std::log(4.0), std::log(60.0)));
+            const double angle = random.uniform(0.0, 6.2831853), number = 6.2831853 / length_m;
+            waves.push_back({number * std::cos(angle), number * std::sin(angle),
+                             random.uniform(0.0, 6.2831853), 0.02 * length_m / std::sqrt(20.0)});
+        }
+        const auto ground = [&](double x, double y) {
+            double z = 0.0;
+            for (const Wave& w : waves) z += w.height_m * std::sin(w.east * x + w.north * y + w.phase);
+            return z;
+        };
+        std::string text = "x_m,y_m,z_m\n";
+        for (int i = 0; i < 900; ++i) {
+            const double x = random.uniform(0.0, kSide_m), y = random.uniform(0.0, kSide_m);
+            text += fmt::format("{:.6f},{:.6f},{:.6f}\n", x, y, ground(x, y) + kNoise_m * random.normal());
+        }
+        writeBytes(folder / "points.csv", text);
+        SurfaceRequest request;
+        request.points = folder / "points.csv";
+        request.output = folder / "dem.tif";
+        request.resolution = 1.0;
+        request.extent = {5.0, 5.0, 55.0, 55.0};
+        request.model.method = InterpolationMethod::Kriging;
+        request.model.cross_validate = false;
+        const auto outcome = surfaceOf(request);
+        ASSERT_TRUE(outcome) << outcome.error().text();
+        ASSERT_GT(outcome->error_range.value(), 0.0);
+        VolumeRequest asked;
+        asked.dem = folder / "dem.tif";
+        asked.uncertainty = folder / "dem_uncertainty.tif";
+        asked.plane = 0.0;
+        SilentProgress silent;
+        const auto volume = measureVolume(asked, silent, {});
+        asked.correlation_range = 0.0;
+        const auto independent = measureVolume(asked, silent, {});
+        ASSERT_TRUE(volume && independent) << volume.error().text();
+        const auto dem = readDem(folder / "dem.tif", {});
+        ASSERT_TRUE(dem);
+        double truth = 0.0;
+        for (std::size_t cell = 0; cell < dem->grid.heights_m.size(); ++cell) {
+            const GridGeometry& g = dem->grid.geometry;
+            ASSERT_FALSE(std::isnan(dem->grid.heights_m[cell]));
+            truth += ground(g.centreX(cell % g.columns), g.centreY(cell / g.columns));
+        }
+        const double error = volume->volume.net_m3 - truth;
+        squares += std::pow(error / volume->volume.net_sigma_m3, 2);
+        squares_independent += std::pow(error / independent->volume.net_sigma_m3, 2);
+        held += std::abs(error) <= 1.96 * volume->volume.net_sigma_m3 ? 1 : 0;
+    }
+    RecordProperty("held", held);
+    RecordProperty("mean_square", fmt::format("{:.3f}", squares / kSurveys));
+    RecordProperty("mean_square_independent", fmt::format("{:.3f}", squares_independent / kSurveys));
+    // 95 % of 40 is 38; 34 or fewer come once in a hundred. The mean square of 40 normal errors lies within
+    // 0.5 and 1.7 ninety-eight times in a hundred.
+    EXPECT_GE(held, 35);
+    EXPECT_GT(squares / kSurveys, 0.5);
+    EXPECT_LT(squares / kSurveys, 1.7);
+    // Cells taken for independent would not have held it.
+    EXPECT_GT(squares_independent / kSurveys, 2.5);
 }
 
 }  // namespace
