@@ -29,8 +29,22 @@ ChannelRange channelsOf(EditedSensor sensor) {
     return {Channel::Latitude, Channel::RangeStrength};
 }
 
-std::string_view nameOf(EditedSensor sensor) {
-    return kEditedSensors[static_cast<std::size_t>(sensor)].second;
+std::string_view wordsFor(EditedSensor sensor) {
+    switch (sensor) {
+        case EditedSensor::Gnss:
+            return "GNSS";
+        case EditedSensor::Barometer:
+            return "barometer";
+        case EditedSensor::Flow:
+            return "optical flow";
+        case EditedSensor::Attitude:
+            return "attitude";
+        case EditedSensor::Range:
+            return "range";
+        case EditedSensor::All:
+            break;
+    }
+    return "all readings";
 }
 
 Result<void> exclude(Survey& survey, const ExcludedStretch& stretch) {
@@ -53,10 +67,8 @@ Result<void> exclude(Survey& survey, const ExcludedStretch& stretch) {
         std::fill(values.begin() + (first - run->log.time_s.begin()),
                   values.begin() + (last - run->log.time_s.begin()), kMissing);
     }
-    survey.notes.push_back(
-        fmt::format("Left out by hand: {} of run {} from {:.1f} to {:.1f} s.",
-                    stretch.sensor == EditedSensor::All ? "all readings" : nameOf(stretch.sensor),
-                    stretch.run, stretch.from_s, stretch.to_s));
+    survey.notes.push_back(fmt::format("Left out by hand: {} of run {} from {:.1f} to {:.1f} s.",
+                                       wordsFor(stretch.sensor), stretch.run, stretch.from_s, stretch.to_s));
     return {};
 }
 
@@ -102,7 +114,10 @@ Result<Survey> withEdits(Survey survey, const SurveyEdits& edits) {
         }
     }
     if (!edits.lines.empty()) {
-        survey.notes.push_back(fmt::format("Drawn by hand: {} line(s) of the surface.", edits.lines.size()));
+        survey.notes.push_back(
+            edits.lines.size() == 1
+                ? "Drawn by hand: a line of the surface."
+                : fmt::format("Drawn by hand: {} lines of the surface.", edits.lines.size()));
     }
     return survey;
 }

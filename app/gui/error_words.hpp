@@ -576,6 +576,12 @@ inline constexpr const char* kErrorSentences[] = {
     QT_TRANSLATE_NOOP("Report", "the plan is in %1 and heights are in %2"),
     QT_TRANSLATE_NOOP("Report", "cannot write run \"%1\": its id names no file of its own"),
     QT_TRANSLATE_NOOP("Report", "%1 sigmas were given for %2 points"),
+    QT_TRANSLATE_NOOP("Report", "drawn line %1"),
+    QT_TRANSLATE_NOOP("Report", "edge %1 toe"),
+    QT_TRANSLATE_NOOP("Report", "edge %1 top"),
+    QT_TRANSLATE_NOOP("Report", "%1 islands for %2 evaluations"),
+    QT_TRANSLATE_NOOP("Report", "take at most %1 islands"),
+    QT_TRANSLATE_NOOP("Report", "the point e %1 n %2 u %3 m of the local frame cannot be taken to %4"),
 };
 
 }  // namespace terrawalk::gui

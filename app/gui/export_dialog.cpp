@@ -13,6 +13,7 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSettings>
+#include <QStandardPaths>
 #include <QVBoxLayout>
 
 #include "app/gui/survey_session.hpp"
@@ -58,7 +59,11 @@ QString suggestedFolder(const SurveySession& session) {
     const QFileInfo project(QString::fromStdString(session.survey()->project_file.string()));
     const QDir folder = project.absoluteDir();
     const QString base = QSettings().value("export/parent").toString();
-    const QString parent = base.isEmpty() ? QFileInfo(folder.absolutePath()).absolutePath() : base;
+    QString parent = base.isEmpty() ? QFileInfo(folder.absolutePath()).absolutePath() : base;
+    // A sample may lie where the system keeps programs, and a stick may be gone.
+    if (!QFileInfo(parent).isWritable())
+        parent = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+    if (!QFileInfo(parent).isWritable()) parent = QDir::homePath();
     return QDir(parent).filePath(folder.dirName() + "-out");
 }
 

@@ -16,6 +16,9 @@ QString nameOf(const QDateTime& when) {
     return when.toUTC().toString("yyyyMMdd'T'HHmmsszzz");
 }
 
+/// In the folder: the surfaces stay, and no new ones join them.
+constexpr const char* kPaused = ".paused";
+
 /// Of one run: heights, standard errors.
 QStringList filesOf(const QString& name) {
     return {name + ".tif", name + "_uncertainty.tif"};
@@ -25,17 +28,28 @@ QStringList filesOf(const QString& name) {
 
 bool KeptSurfaces::wanted() const {
     std::error_code error;
-    return fs::is_directory(folder_, error);
+    return fs::is_directory(folder_, error) && !fs::exists(folder_ / kPaused, error);
 }
 
 bool KeptSurfaces::start() const {
-    return QDir().mkpath(QString::fromStdString(folder_.string()));
+    std::error_code error;
+    return QDir().mkpath(QString::fromStdString(folder_.string())) &&
+           (fs::remove(folder_ / kPaused, error) || !error);
 }
 
-void KeptSurfaces::stop() const {
-    keepOnly({});
+bool KeptSurfaces::pause() const {
     std::error_code error;
-    fs::remove(folder_, error);  // fails, as it should, where there is more in it
+    if (fs::remove(folder_, error)) return true;  // fails, as it should, where there is something in it
+    QFile mark(QString::fromStdString((folder_ / kPaused).string()));
+    return mark.open(QIODevice::WriteOnly);
+}
+
+void KeptSurfaces::removeAll() const {
+    keepOnly({});
+    if (wanted()) return;
+    std::error_code error;
+    fs::remove(folder_ / kPaused, error);
+    fs::remove(folder_, error);
 }
 
 fs::path KeptSurfaces::file(const QDateTime& when) const {

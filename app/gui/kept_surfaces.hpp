@@ -11,7 +11,8 @@
 namespace terrawalk::gui {
 
 /// Surfaces of a survey's runs on disk, so that heights can be compared after the program ended: a DEM and
-/// its standard errors for each run. They are kept while their folder is there.
+/// its standard errors for each run. Those of new runs join them while their folder is there and holds no mark
+/// that says otherwise.
 class KeptSurfaces {
   public:
     explicit KeptSurfaces(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -19,8 +20,10 @@ class KeptSurfaces {
     [[nodiscard]] bool wanted() const;
     /// Makes the folder. Returns whether it could.
     [[nodiscard]] bool start() const;
-    /// Removes the surfaces, and the folder where nothing else lies in it.
-    void stop() const;
+    /// No more are kept; those that are there stay. Returns whether it could be noted.
+    [[nodiscard]] bool pause() const;
+    /// Removes the surfaces, and the folder where no more are wanted and nothing else lies in it.
+    void removeAll() const;
 
     /// The DEM of a run, there or not.
     [[nodiscard]] std::filesystem::path file(const QDateTime& when) const;

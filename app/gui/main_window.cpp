@@ -7,6 +7,7 @@
 #include <QDesktopServices>
 #include <QDockWidget>
 #include <QDragEnterEvent>
+#include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QHeaderView>
@@ -16,6 +17,7 @@
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QRegularExpression>
 #include <QSettings>
 #include <QStackedWidget>
 #include <QStatusBar>
@@ -60,6 +62,23 @@ QString text(const std::string& utf8) {
 
 std::string nameOf(const QString& utf16) {
     return utf16.toStdString();
+}
+
+enum class Dropped { Survey, Settings, Dem, Unknown };
+
+Dropped kindOfDropped(const QString& path) {
+    const QFileInfo info(path);
+    const QString suffix = info.suffix().toLower();
+    if (info.isDir()) return Dropped::Survey;
+    if (QStringList{"tif", "tiff", "asc"}.contains(suffix)) return Dropped::Dem;
+    if (suffix != "json") return Dropped::Unknown;
+    constexpr qint64 kBeginning_bytes = 4096;
+    QFile file(path);
+    static const QRegularExpression settings("\"format\"\\s*:\\s*\"terrawalk-config");
+    const bool read = file.open(QIODevice::ReadOnly);
+    return read && settings.match(QString::fromUtf8(file.read(kBeginning_bytes))).hasMatch()
+               ? Dropped::Settings
+               : Dropped::Survey;
 }
 
 BreaklineKind kindOf(MapTool tool) {
@@ -916,7 +935,9 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-    if (event->mimeData()->hasUrls()) event->acceptProposedAction();
+    const QList<QUrl> urls = event->mimeData()->urls();
+    if (std::any_of(urls.begin(), urls.end(), [](const QUrl& url) { return url.isLocalFile(); }))
+        event->acceptProposedAction();
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
@@ -924,9 +945,36 @@ void MainWindow::dropEvent(QDropEvent* event) {
     for (const QUrl& url : event->mimeData()->urls()) {
         if (url.isLocalFile()) paths << url.toLocalFile();
     }
-    if (paths.isEmpty()) return;
-    if (areLooseFiles(paths) && !session_.busy()) return newSurvey(paths);
-    open(paths.front());
+    if (!paths.isEmpty()) takeDropped(paths);
+}
+
+void MainWindow::takeDropped(const QStringList& paths) {
+    if (session_.busy()) return say(MessageKind::Warning, tr("Cancel what is running first."));
+    if (areLooseFiles(paths)) return newSurvey(paths);
+    const auto survey = std::find_if(paths.begin(), paths.end(), [](const QString& path) {
+        return kindOfDropped(path) == Dropped::Survey;
+    });
+    const QString& path = survey == paths.end() ? paths.front() : *survey;
+    if (paths.size() > 1)
+        say(MessageKind::Info, tr("One at a time: of what was dropped, %1 is taken.").arg(path));
+    switch (kindOfDropped(path)) {
+        case Dropped::Survey:
+            return open(path);
+        case Dropped::Settings:
+            if (!session_.survey())
+                return say(MessageKind::Warning, tr("Open a survey first: these are settings for one."));
+            return session_.loadSettings(path.toStdString());
+        case Dropped::Dem:
+            if (!session_.products())
+                return say(MessageKind::Warning,
+                           tr("Process a survey first: its heights are compared with those of this DEM."));
+            return session_.compareWith(std::filesystem::path(path.toStdString()));
+        case Dropped::Unknown:
+            return say(MessageKind::Error,
+                       tr("%1: this cannot be opened; drop a survey.json or its folder, logs "
+                          "and marks (.csv), settings (.json) or a DEM (.tif)")
+                           .arg(path));
+    }
 }
 
 }  // namespace terrawalk::gui

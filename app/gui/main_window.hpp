@@ -90,6 +90,8 @@ class MainWindow : public QMainWindow {
                        const QKeySequence& key, const std::function<void()>& run);
     QDockWidget* addDock(Qt::DockWidgetArea area, const QString& name, const QString& title, QWidget* widget);
     void connectSession();
+    /// Opens, reads or compares what files are taken for, one at a time but for logs and marks.
+    void takeDropped(const QStringList& paths);
     void askForSurvey();
     void askForExport();
     void copyCommand();

@@ -6,7 +6,9 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QLocale>
+#include <QMessageBox>
 #include <QPushButton>
+#include <QSignalBlocker>
 #include <QTableWidget>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -61,6 +63,10 @@ RunsDialog::RunsDialog(SurveySession& session, QWidget* parent) : QDialog(parent
     setObjectName("runs_dialog");
     setWindowTitle(tr("Earlier runs"));
     resize(960, 560);
+    sure = [this](const QString& question) {
+        return QMessageBox::question(this, windowTitle(), question, QMessageBox::Yes | QMessageBox::Cancel,
+                                     QMessageBox::Cancel) == QMessageBox::Yes;
+    };
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(2 * kGrid_px, 2 * kGrid_px, 2 * kGrid_px, 2 * kGrid_px);
     column->setSpacing(kGrid_px);
@@ -97,6 +103,8 @@ RunsDialog::RunsDialog(SurveySession& session, QWidget* parent) : QDialog(parent
     });
     connect(keep_, &QCheckBox::toggled, this, [this](bool keep) {
         session_.keepSurfaces(keep);
+        const QSignalBlocker quiet(keep_);
+        keep_->setChecked(session_.keptSurfaces().wanted());  // which a disk may refuse
         showKeeping();
         showChosen();
     });
@@ -142,28 +150,52 @@ QLayout* RunsDialog::buildKeeping() {
     keep_->setObjectName("keep_surfaces");
     keep_->setToolTip(
         tr("Of the runs whose results are here and of those to come, until they leave this "
-           "list. Unticked, those on disk are removed."));
+           "list. Unticked, no more are kept; those on disk stay until they are removed."));
     keep_->setChecked(session_.keptSurfaces().wanted());
     kept_ = new QLabel;
     kept_->setObjectName("quiet");
+    remove_ = new QPushButton(tr("Remove from disk…"));
+    remove_->setObjectName("remove_kept");
+    remove_->setToolTip(tr("Removes the kept surfaces; settings and figures of the runs stay"));
+    remove_->setAutoDefault(false);
+    connect(remove_, &QPushButton::clicked, this, &RunsDialog::removeKept);
     auto* row = new QHBoxLayout;
     row->addWidget(keep_);
     row->addStretch();
     row->addWidget(kept_);
+    row->addWidget(remove_);
     showKeeping();
     return row;
 }
 
 void RunsDialog::showKeeping() {
-    const KeptSurfaces kept = session_.keptSurfaces();
-    qint64 bytes = 0;
-    for (const RunSummary& run : session_.runs()) bytes += kept.bytes(run.when);
+    const qint64 bytes = keptBytes();
     QStringList words;
     if (bytes > 0) words << tr("%1 on disk").arg(sizeText(bytes));
     if (const auto products = session_.products())
         words << tr("at most %1 for each run").arg(sizeText(KeptSurfaces::mostBytes(*products)));
     kept_->setText(words.join(tr("; ")));
     keep_->setEnabled(!session_.busy());
+    remove_->setVisible(bytes > 0);
+    remove_->setEnabled(!session_.busy());
+}
+
+qint64 RunsDialog::keptBytes() const {
+    const KeptSurfaces kept = session_.keptSurfaces();
+    qint64 bytes = 0;
+    for (const RunSummary& run : session_.runs()) bytes += kept.bytes(run.when);
+    return bytes;
+}
+
+void RunsDialog::removeKept() {
+    const QString question =
+        tr("Remove the kept surfaces (%1) from disk? This cannot be undone; a run that is processed again "
+           "gives its surface back.")
+            .arg(sizeText(keptBytes()));
+    if (!sure(question)) return;
+    session_.removeKeptSurfaces();
+    showKeeping();
+    showChosen();
 }
 
 QString RunsDialog::resultsWords(std::size_t run) const {

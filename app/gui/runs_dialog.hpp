@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QDialog>
+#include <functional>
 #include <vector>
 
 #include "app/pipeline/run_history.hpp"
@@ -21,6 +22,9 @@ class RunsDialog : public QDialog {
   public:
     explicit RunsDialog(SurveySession& session, QWidget* parent = nullptr);
 
+    /// How a person is asked whether files may go; a test answers in its place.
+    std::function<bool(const QString& question)> sure;
+
   private:
     QTableWidget* buildRuns();
     QTableWidget* buildDifferences();
@@ -28,6 +32,8 @@ class RunsDialog : public QDialog {
     void addRun(std::size_t run);
     void showChosen();
     void showKeeping();
+    void removeKept();
+    [[nodiscard]] qint64 keptBytes() const;
     [[nodiscard]] QString resultsWords(std::size_t run) const;
     [[nodiscard]] QString compareWords(std::size_t run) const;
     [[nodiscard]] std::size_t chosen() const;
@@ -41,6 +47,7 @@ class RunsDialog : public QDialog {
     QLabel* results_ = nullptr;
     QCheckBox* keep_ = nullptr;
     QLabel* kept_ = nullptr;
+    QPushButton* remove_ = nullptr;
     QPushButton* go_back_ = nullptr;
     QPushButton* again_ = nullptr;
     QPushButton* compare_ = nullptr;

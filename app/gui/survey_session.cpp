@@ -121,7 +121,7 @@ void SurveySession::finishOpening(const fs::path& path, Survey survey, SurveyMap
     Q_EMIT settingsChanged();
     Q_EMIT tuningChanged();
     Q_EMIT told(MessageKind::Done, tr("Opened %1.").arg(text(survey_->name)));
-    for (const std::string& note : survey_->notes) Q_EMIT told(MessageKind::Info, text(note));
+    for (const std::string& note : survey_->notes) Q_EMIT told(MessageKind::Info, reportWords(note));
     recover();
     Q_EMIT savedChanged();
 }
@@ -280,12 +280,12 @@ KeptSurfaces SurveySession::keptSurfaces() const {
 
 void SurveySession::keepSurfaces(bool keep) {
     const KeptSurfaces kept = keptSurfaces();
-    if (!keep) return kept.stop();
-    if (!kept.start()) {
+    if (!(keep ? kept.start() : kept.pause())) {
         Q_EMIT told(MessageKind::Error, tr("%1: cannot be written; check that you may write there")
                                             .arg(text(kept.file(QDateTime()).parent_path().string())));
         return;
     }
+    if (!keep) return;
     job_.start([this, kept, runs = history_](Progress& progress, const std::stop_token& stop) {
         progress.report(0.0, "writing");
         Result<void> written;
@@ -297,6 +297,12 @@ void SurveySession::keepSurfaces(bool keep) {
             if (!written) fail(written.error());
         };
     });
+}
+
+void SurveySession::removeKeptSurfaces() {
+    if (busy()) return;
+    keptSurfaces().removeAll();
+    Q_EMIT told(MessageKind::Done, tr("The kept surfaces are removed from disk."));
 }
 
 void SurveySession::takeChange(Result<HeightChange> change) {

@@ -134,8 +134,9 @@ class SurveySession : public QObject {
     void showRunAgain(std::size_t run);
     /// Surfaces of runs() on disk, beside the file that lists them.
     [[nodiscard]] KeptSurfaces keptSurfaces() const;
-    /// Keeps the surfaces of runs whose results are here, and of those to come; or removes all of them.
+    /// Keeps the surfaces of runs whose results are here, and of those to come; or of no more.
     void keepSurfaces(bool keep);
+    void removeKeptSurfaces();
     /// Compares the shown results with one of runs(), whose results are here or whose surface is kept.
     void compareWithRun(std::size_t run);
     [[nodiscard]] bool canCompareWith(std::size_t run) const;

@@ -4535,6 +4535,70 @@
             <source>adjusting all runs anew: the scale of the optical flow wanders</source>
             <translation>重新整体平差：光流比例在缓慢变化</translation>
         </message>
+        <message>
+            <source>the point e %1 n %2 u %3 m of the local frame cannot be taken to %4</source>
+            <translation>局部坐标系的点 e %1 n %2 u %3 m 无法转换到 %4</translation>
+        </message>
+        <message>
+            <source>all readings</source>
+            <translation>所有读数</translation>
+        </message>
+        <message>
+            <source>attitude</source>
+            <translation>姿态</translation>
+        </message>
+        <message>
+            <source>range</source>
+            <translation>测距</translation>
+        </message>
+        <message>
+            <source>Drawn by hand: a line of the surface.</source>
+            <translation>手工绘制：1 条线。</translation>
+        </message>
+        <message>
+            <source>Left out by hand: %1 of run %2 from %3 to %4 s.</source>
+            <translation>手动排除：测线 %2 从 %3 至 %4 s 的%1。</translation>
+        </message>
+        <message>
+            <source>Left out by hand: run %1.</source>
+            <translation>手动排除：测线 %1。</translation>
+        </message>
+        <message>
+            <source>Left out by hand: mark %1.</source>
+            <translation>手动排除：标志点 %1。</translation>
+        </message>
+        <message>
+            <source>Drawn by hand: %1 lines of the surface.</source>
+            <translation>手工绘制：%1 条线。</translation>
+        </message>
+        <message>
+            <source>tuning without %1</source>
+            <translation>不用 %1 调参</translation>
+        </message>
+        <message>
+            <source>%1 islands for %2 evaluations</source>
+            <translation>%1 个岛，%2 次评估</translation>
+        </message>
+        <message>
+            <source>take at most %1 islands</source>
+            <translation>请至多取 %1 个岛</translation>
+        </message>
+        <message>
+            <source>runs are named as their logs are</source>
+            <translation>测线与其日志同名</translation>
+        </message>
+        <message>
+            <source>drawn line %1</source>
+            <translation>绘制线 %1</translation>
+        </message>
+        <message>
+            <source>edge %1 toe</source>
+            <translation>边缘 %1 坡脚</translation>
+        </message>
+        <message>
+            <source>edge %1 top</source>
+            <translation>边缘 %1 坡顶</translation>
+        </message>
     </context>
     <context>
         <name>RunFigure</name>
@@ -7396,6 +7460,22 @@
             <source>%1 stretches, %2 s in all, are left out: process again to see what it changes.</source>
             <translation>已排除 %1 段，共 %2 s：重新处理即可看到变化。</translation>
         </message>
+        <message>
+            <source>One at a time: of what was dropped, %1 is taken.</source>
+            <translation>一次只能打开一项：在拖入的内容中采用 %1。</translation>
+        </message>
+        <message>
+            <source>Open a survey first: these are settings for one.</source>
+            <translation>请先打开测量：这是测量的设置。</translation>
+        </message>
+        <message>
+            <source>Process a survey first: its heights are compared with those of this DEM.</source>
+            <translation>请先处理测量：其高程将与此 DEM 比较。</translation>
+        </message>
+        <message>
+            <source>%1: this cannot be opened; drop a survey.json or its folder, logs and marks (.csv), settings (.json) or a DEM (.tif)</source>
+            <translation>%1：无法打开；请拖入 survey.json 或其文件夹、日志和标志点（.csv）、设置（.json）或 DEM（.tif）</translation>
+        </message>
     </context>
     <context>
         <name>terrawalk::gui::MapPanel</name>
@@ -8121,10 +8201,6 @@
             <translation>在磁盘上保留曲面，以便重启后比较高程</translation>
         </message>
         <message>
-            <source>Of the runs whose results are here and of those to come, until they leave this list. Unticked, those on disk are removed.</source>
-            <translation>保留结果仍在内存中的和以后的处理的曲面，直到它们离开此列表。取消勾选则删除磁盘上的曲面。</translation>
-        </message>
-        <message>
             <source>%1 on disk</source>
             <translation>磁盘上 %1</translation>
         </message>
@@ -8167,6 +8243,22 @@
         <message>
             <source>Takes its settings over, undo brings yours back, and processes</source>
             <translation>采用其设置（撤销可恢复），并处理</translation>
+        </message>
+        <message>
+            <source>Of the runs whose results are here and of those to come, until they leave this list. Unticked, no more are kept; those on disk stay until they are removed.</source>
+            <translation>保留结果仍在内存中的和以后的处理的曲面，直到它们离开此列表。取消勾选则不再保留新的曲面，磁盘上已有的仍在，直到将其删除。</translation>
+        </message>
+        <message>
+            <source>Remove from disk…</source>
+            <translation>从磁盘删除…</translation>
+        </message>
+        <message>
+            <source>Removes the kept surfaces; settings and figures of the runs stay</source>
+            <translation>删除保留的曲面；各次处理的设置和数值仍在</translation>
+        </message>
+        <message>
+            <source>Remove the kept surfaces (%1) from disk? This cannot be undone; a run that is processed again gives its surface back.</source>
+            <translation>从磁盘删除保留的曲面（%1）？此操作无法撤销；重新处理即可再次得到曲面。</translation>
         </message>
     </context>
     <context>
@@ -8733,6 +8825,10 @@
         <message>
             <source>%1: cannot be written; check that you may write there</source>
             <translation>%1：无法写入；请检查写权限</translation>
+        </message>
+        <message>
+            <source>The kept surfaces are removed from disk.</source>
+            <translation>保留的曲面已从磁盘删除。</translation>
         </message>
     </context>
     <context>

@@ -2,7 +2,6 @@
 #include <signal.h>
 
 #include <chrono>
-#include <random>
 #include <thread>
 
 #include "tests/cli/cli_support.hpp"
@@ -93,19 +92,13 @@ TEST(Kill, AtAnyMomentTheOutputIsTheOldOrTheNewOne) {
     const auto timed = make("0.25", {});
     ASSERT_EQ(timed.exit_code, 0);
     const auto fine = readTree(here / "out");
-    std::mt19937 random(7);
-    std::size_t killed = 0;
-    for (int round = 0; round < 8; ++round) {
-        const double share = 0.4 + 0.7 * static_cast<double>(random() % 1000) / 1000.0;
-        const auto outcome = make(round % 2 == 0 ? "0.5" : "0.25", [&](pid_t program) {
-            std::this_thread::sleep_for(std::chrono::duration<double>(share * timed.seconds));
-            kill(program, SIGKILL);
-        });
-        killed += outcome.signal == SIGKILL ? 1 : 0;
+    KillNearTheEnd killer(timed.seconds);
+    for (int round = 0; round < 40 && killer.hits() < 6; ++round) {
+        killer.learn(make(round % 2 == 0 ? "0.5" : "0.25", killer));
         const auto found = readTree(here / "out");
         ASSERT_TRUE(found == coarse || found == fine) << "round " << round;
     }
-    EXPECT_GE(killed, 2u);
+    EXPECT_EQ(killer.hits(), 6u);
     // The next run removes what the killed ones left beside the output.
     ASSERT_EQ(make("0.5", {}).exit_code, 0);
     std::size_t entries = 0;

@@ -1,10 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <signal.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "tests/cli/cli_support.hpp"
 
@@ -52,17 +49,13 @@ TEST(NewCommand, AKilledOneLeavesTheOldSurveyOrTheNewOne) {
     ASSERT_EQ(timed.exit_code, 0);
     const std::string another = readTree(walk).at("survey.json");
     ASSERT_NE(one, another);
-    std::size_t killed = 0;
-    for (int round = 0; round < 12; ++round) {
-        const auto outcome = make(round % 2 == 0 ? "one" : "another", [&](pid_t program) {
-            std::this_thread::sleep_for(std::chrono::duration<double>(timed.seconds * (0.5 + 0.05 * round)));
-            kill(program, SIGKILL);
-        });
-        killed += outcome.signal == SIGKILL ? 1 : 0;
+    KillNearTheEnd killer(timed.seconds);
+    for (int round = 0; round < 60 && killer.hits() < 8; ++round) {
+        killer.learn(make(round % 2 == 0 ? "one" : "another", killer));
         const std::string found = readTree(walk).at("survey.json");
         EXPECT_TRUE(found == one || found == another) << "round " << round;
     }
-    EXPECT_GE(killed, 3u);
+    EXPECT_EQ(killer.hits(), 8u);
 }
 
 TEST(NewCommand, SaysWhatIsWrong) {

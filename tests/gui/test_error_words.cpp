@@ -1,4 +1,5 @@
 #include <QApplication>
+#include <QFile>
 #include <QRegularExpression>
 #include <QTemporaryDir>
 #include <QTest>
@@ -16,6 +17,8 @@
 #include "io/read_dem.hpp"
 #include "io/read_survey.hpp"
 #include "mapping/delaunay_tin.hpp"
+#include "survey/survey_edits.hpp"
+#include "tests/gui/core_sentences.hpp"
 
 namespace terrawalk::gui {
 
@@ -40,6 +43,67 @@ bool isChinese(QString words) {
            !english.match(words).hasMatch();
 }
 
+/// What only the command line reaches: it speaks English.
+bool forTheCommandLineAlone(const std::filesystem::path& file) {
+    static const QStringList files{
+        "accuracy_measure", "compare",        "contour_job",  "derive_job",    "difference_job",
+        "experiment",       "las_reader",     "marks_on_map", "occupancy_job", "outage_measure",
+        "ply_reader",       "point_cleaning", "profile_job",  "raster_input",  "read_points",
+        "simulation",       "space_map",      "surface",      "text_table",    "point_table_reader",
+        "tune_checkpoint",  "tune_jobs",      "validate_job", "volume_job",    "vector_points_reader",
+        "walk_advice_job",  "write_survey"};
+    return files.contains(QString::fromStdString(file.stem().string()));
+}
+
+/// Said of wrong calls, which no input leads to, or put together otherwise: known sentences say the whole.
+const QStringList& notToBeTranslated() {
+    static const QStringList texts{
+        // wrong calls
+        "name formats with --points, --mesh or --dem", "leave --hyperparameters out", "unknown filter",
+        "the objective has no losses", "the search box has no dimensions or unequal ones",
+        "bounds {} of the search box are {} and {}", "give finite bounds, the lower one first",
+        "give generations or evaluations", "nsga2 needs two losses or more, this objective has one",
+        "the record is of another search: optimiser, seed, budget, box or data differ", "start without it",
+        "the record has {} islands, the search {}", "a binary value",
+        "the surface has a vertex that is not finite", "the surface has a triangle without a vertex",
+        "\"{}\" is no name for a file in the output folder", "the DEM has no place or no cell size",
+        "a region without a cell", "give xmin,ymin,xmax,ymax with xmin < xmax and ymin < ymax",
+        "a height's sigma of {} is none", "each point of a surface needs one sigma of the track",
+        "each cell needs one variance of interpolation",
+        // the file of a tuning alone
+        "squared distance between the fused position over the last still seconds of a fixed-point run and "
+        "its "
+        "target mark, summed over the runs",
+        "{} independent islands share the evaluations; the best of all is the answer",
+        "population {} instead of {}: {} needs a multiple of four",
+        "{} ended before its evaluations were spent and started again {} times",
+        // put together
+        "no {}; {}", "{} at {:.3f}, {:.3f}", "The heights have no standard errors{}: {}.",
+        "the fixed-point run {} has no {} mark",
+        "{} ended on its {} bound {}: the data ask for more than the box allows, or say nothing of it",
+        "the barometer puts mark {} {:.1f} m {} its height at {:.0f} s: check the name and the coordinates "
+        "of "
+        "the mark",
+        "holds something else than an earlier output: \"{}\"{}",
+        "{}\", which is not Terrawalk's and would be replaced; move it away",
+        "{} is off by {}, more than {:g} times the {}: a possible blunder. It is counted.",
+        "{} {} and could not be compared: {}.",
+        "The Vegetated Vertical Accuracy (VVA) was found to be RMSE_V = {} at {}.",
+        "{} {} a small sample: the true error may differ a good deal from the figure found."};
+    return texts;
+}
+
+/// Sources of the sentences that the window knows, with a mark where names and numbers come.
+QString knownSentences() {
+    QFile file(TERRAWALK_SOURCE_DIR "/resources/i18n/terrawalk_zh_CN.ts");
+    if (!file.open(QIODevice::ReadOnly)) return {};
+    QString texts = QString::fromUtf8(file.readAll());
+    texts = texts.mid(texts.indexOf("<name>Report</name>"));
+    texts.truncate(texts.indexOf("</context>"));
+    static const QRegularExpression place("%[0-9]");
+    return texts.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&").replace(place, "{}");
+}
+
 }  // namespace
 
 /// What the core says of bad input, in the window's language.
@@ -54,6 +118,8 @@ class ErrorWordsTest : public QObject {
     void badInputIsToldInChinese_data();
     void badInputIsToldInChinese();
     void placeAndCureAreTold();
+    void editsAreToldInChinese();
+    void everySentenceOfTheCoreIsKnown();
 
   private:
     std::filesystem::path written(const std::string& name, const std::string& text) const {
@@ -195,11 +261,60 @@ void ErrorWordsTest::badInputIsToldInChinese() {
     QVERIFY2(cure.isEmpty() || isChinese(cure), qPrintable(cure));
 }
 
+void ErrorWordsTest::editsAreToldInChinese() {
+    Survey survey;
+    survey.marks = {{.name = "P01"}, {.name = "P02"}};
+    for (const char* id : {"S01", "S02"}) {
+        survey.runs.push_back({.id = id});
+        survey.runs.back().log.time_s = {0.0, 1.0, 2.0};
+    }
+    SurveyEdits edits;
+    for (const auto& [sensor, name] : kEditedSensors) edits.stretches.push_back({"S01", 0.0, 1.5, sensor});
+    edits.runs = {"S02"};
+    edits.marks = {"P01"};
+    edits.lines = {Breakline{{{0, 0, 0}, {1, 1, 1}}, BreaklineKind::Hard, {}}};
+    auto edited = withEdits(survey, edits);
+    QVERIFY(edited.has_value());
+    edits.lines.push_back(edits.lines.front());
+    const auto more = withEdits(survey, edits);
+    QVERIFY(more.has_value());
+    edited->notes.push_back(more->notes.back());
+    QCOMPARE(edited->notes.size(), kEditedSensors.size() + 4);
+    for (const std::string& note : edited->notes) {
+        const QString words = reportWords(note);
+        QVERIFY2(isChinese(words), qPrintable(words));
+    }
+    QVERIFY(reportWords(edited->notes.front()).contains("0.0"));
+    QCOMPARE(reportWords("drawn line 1 and drawn line 2 cross at 3.250, 4.250"),
+             QString::fromUtf8("绘制线 1 与绘制线 2 在 3.250, 4.250 处相交"));
+}
+
 void ErrorWordsTest::placeAndCureAreTold() {
     const Error error{ErrorKind::BadData, "no column e_m", "control.csv", 3, "write control or check"};
     QCOMPARE(errorWords(error), QString::fromUtf8("control.csv:3：没有列 e_m；请写 control 或 check"));
     applyLanguage("en");
     QCOMPARE(errorWords(error), QString::fromStdString(error.text()));
+}
+
+// Sentences are found in the sources, so that a new one cannot reach a Chinese window in English. Pieces that
+// are put together count where a known sentence holds them.
+void ErrorWordsTest::everySentenceOfTheCoreIsKnown() {
+    const auto sentences = test::coreSentences(TERRAWALK_SOURCE_DIR);
+    QVERIFY(sentences.size() > 500);
+    const QString known = knownSentences();
+    QVERIFY(known.contains("no such file"));
+    static const QRegularExpression place("\\{[^}]*\\}");
+    QStringList missing;
+    for (const auto& [file, sentence] : sentences) {
+        if (forTheCommandLineAlone(file)) continue;
+        const QString text = QString::fromStdString(sentence).trimmed();
+        QString piece = text;
+        piece.replace(place, "{}");
+        if (isChinese(reportWords(test::withExamples(text.toStdString()))) || known.contains(piece)) continue;
+        if (!notToBeTranslated().contains(text))
+            missing << QString::fromStdString(file.string()) + ": " + text;
+    }
+    QVERIFY2(missing.isEmpty(), qPrintable("\n" + missing.join("\n")));
 }
 
 }  // namespace terrawalk::gui

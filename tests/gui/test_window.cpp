@@ -45,6 +45,7 @@
 #include "app/gui/profile_plot.hpp"
 #include "app/gui/report_view.hpp"
 #include "app/gui/report_words.hpp"
+#include "app/gui/runs_dialog.hpp"
 #include "app/gui/sample_surveys.hpp"
 #include "app/gui/setting_editor.hpp"
 #include "app/gui/setting_words.hpp"
@@ -116,6 +117,7 @@ class WindowTest : public QObject {
     void themeAndLanguageSwitch();
     void badFilesAreErrorsInTheMessagesAndLoseNothing();
     void droppedFolderIsOpened();
+    void oddFilesThatAreDroppedAreToldOrTaken();
     void earlierRunsCanBeGoneBackTo();
     void earlierRunsOutliveTheProgram();
     void keptSurfacesOfEarlierRunsAreComparedAfterARestart();
@@ -904,6 +906,10 @@ void WindowTest::exportDialogRefusesWhatCannotBe() {
         QVERIFY2(!go->isEnabled(), qPrintable(bad));
         QVERIFY(!dialog->findChild<QLabel*>("problem")->text().isEmpty());
     }
+    // What was chosen last may be gone; another place is offered then.
+    QSettings().setValue("export/parent", "/no/such/stick");
+    QVERIFY(ExportDialog(session()).findChild<QPushButton*>("primary")->isEnabled());
+    QSettings().remove("export/parent");
     dialog->setFolder(scratch_->filePath("result"));
     QVERIFY(go->isEnabled());
     QVERIFY(dialog->findChild<QLabel*>("command")->text().contains("terrawalk process"));
@@ -988,6 +994,61 @@ void WindowTest::droppedFolderIsOpened() {
     QDropEvent drop(QPointF(100, 100), Qt::CopyAction, &data, Qt::LeftButton, {});
     QApplication::sendEvent(window_, &drop);
     QTRY_VERIFY_WITH_TIMEOUT(session().survey() && idle(), kLong_ms);
+}
+
+void WindowTest::oddFilesThatAreDroppedAreToldOrTaken() {
+    const auto drop = [&](const QStringList& paths) {
+        QMimeData data;
+        QList<QUrl> urls;
+        for (const QString& path : paths) urls << QUrl::fromLocalFile(path);
+        data.setUrls(urls);
+        QDropEvent event(QPointF(100, 100), Qt::CopyAction, &data, Qt::LeftButton, {});
+        const qsizetype before = messages().size();
+        QApplication::sendEvent(window_, &event);
+        QTest::qWait(20);
+        [&] {
+            QTRY_VERIFY_WITH_TIMEOUT(idle(), kLong_ms);
+        }();
+        return messages().mid(before);
+    };
+    QMimeData web;
+    web.setUrls({QUrl("https://example.org/survey.json")});
+    QDragEnterEvent enter(QPoint(100, 100), Qt::CopyAction, &web, Qt::LeftButton, {});
+    QApplication::sendEvent(window_, &enter);
+    QVERIFY(!enter.isAccepted());
+
+    const QString settings = scratch_->filePath("settings.json"), picture = scratch_->filePath("photo.jpg");
+    QVERIFY(QFile::copy(TERRAWALK_SOURCE_DIR "/resources/pictures/map.png", picture));
+    QFile file(settings);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write("{\"format\": \"terrawalk-config 1\", \"surface\": {\"cell_m\": 1.5}}");
+    file.close();
+    QVERIFY(drop({settings}).contains("Open a survey first"));
+    QVERIFY(drop({picture}).contains("cannot be opened"));
+    QVERIFY(!session().survey());
+    // The survey among other things.
+    const QString words = drop({picture, settings, sample_});
+    QVERIFY2(words.contains("One at a time") && words.contains("Opened"), qPrintable(words));
+    QVERIFY(session().survey() != nullptr);
+    QVERIFY(drop({settings}).contains("Settings read"));
+    QCOMPARE(session().settings().config().surface.cell_m, 1.5);
+    action("undo").trigger();
+    QCOMPARE(session().settings().config().surface.cell_m, 0.0);
+    const QString dem = scratch_->filePath("out/dem.tif");
+    QVERIFY(drop({dem}).contains("Process a survey first"));
+    processed();
+    session().exportTo(scratch_->filePath("out").toStdString());
+    QTRY_VERIFY_WITH_TIMEOUT(idle(), kLong_ms);
+    drop({dem});
+    QTRY_VERIFY(session().viewState().now().change);
+    // Nothing is opened behind the back of what runs.
+    action("process").trigger();
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(sample_)});
+    QDropEvent event(QPointF(100, 100), Qt::CopyAction, &data, Qt::LeftButton, {});
+    QApplication::sendEvent(window_, &event);
+    QVERIFY(messages().contains("Cancel what is running first"));
+    QTRY_VERIFY_WITH_TIMEOUT(idle(), kLong_ms);
 }
 
 void WindowTest::earlierRunsCanBeGoneBackTo() {
@@ -1100,10 +1161,37 @@ void WindowTest::keptSurfacesOfEarlierRunsAreComparedAfterARestart() {
     QVERIFY(std::abs(session().viewState().now().change->median_m - median_m) < 1e-6);
     QVERIFY(std::abs(session().viewState().now().change->rms_m - rms_m) < 1e-6);
     QVERIFY(session().viewState().now().change->earlier_has_sigma);
-    // Unticked, the disk is as it was.
-    session().keepSurfaces(false);
+    // Unticked, no more are kept, and those on disk stay until a person wants them removed.
+    dialog = runsDialog();
+    dialog->findChild<QCheckBox*>("keep_surfaces")->click();
     QVERIFY(!session().keptSurfaces().wanted());
+    QVERIFY(session().canCompareWith(0));
+    dialog->close();
+    QVERIFY(session().changeSetting("surface.cell_m", "2"));
+    processed();
+    QVERIFY(!session().keptSurfaces().has(session().runs().back().when));
+    QVERIFY(session().keptSurfaces().has(first));
+    dialog = runsDialog();
+    QString asked;
+    bool yes = false;
+    qobject_cast<RunsDialog*>(dialog)->sure = [&](const QString& question) {
+        asked = question;
+        return yes;
+    };
+    auto* remove = dialog->findChild<QPushButton*>("remove_kept");
+    QVERIFY(remove->isVisible());
+    remove->click();
+    QVERIFY2(asked.contains("cannot be undone"), qPrintable(asked));
+    QVERIFY(session().keptSurfaces().has(first));
+    yes = true;
+    remove->click();
+    QVERIFY(!session().keptSurfaces().has(first));
     QVERIFY(!session().canCompareWith(0));
+    QVERIFY(!remove->isVisible());
+    QVERIFY(!fs::exists(session().keptSurfaces().file(first).parent_path()));  // the disk is as it was
+    dialog->findChild<QCheckBox*>("keep_surfaces")->click();
+    QTRY_VERIFY_WITH_TIMEOUT(idle(), kLong_ms);
+    QVERIFY(session().keptSurfaces().has(session().runs().back().when));
 }
 
 void WindowTest::runsOfReadOnlySurveysAndBrokenListsAreNoHarm() {
