@@ -1,6 +1,6 @@
 #include "app/gui/mark_names.hpp"
 
-#include <QPainterPath>
+#include <QLineF>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -62,6 +62,27 @@ class TakenBoxes {
     std::map<Square, std::vector<std::size_t>> in_;
 };
 
+/// Whether a line goes through a box.
+bool crosses(const QLineF& line, const QRectF& box) {
+    if (box.contains(line.p1()) || box.contains(line.p2())) return true;
+    const std::array sides{QLineF(box.topLeft(), box.topRight()), QLineF(box.topRight(), box.bottomRight()),
+                           QLineF(box.bottomRight(), box.bottomLeft()),
+                           QLineF(box.bottomLeft(), box.topLeft())};
+    return std::any_of(sides.begin(), sides.end(), [&](const QLineF& side) {
+        return line.intersects(side) == QLineF::BoundedIntersection;
+    });
+}
+
+/// From the edge of the symbol to the nearest point of the name; none where they touch.
+std::optional<QLineF> leadTo(QPointF symbol, const QRectF& box) {
+    const QPointF end(std::clamp(symbol.x(), box.left() - 1.0, box.right() + 1.0),
+                      std::clamp(symbol.y(), box.top() + 2.0, box.bottom() - 2.0));
+    const QPointF way = end - symbol;
+    const double length = std::hypot(way.x(), way.y());
+    if (length < kSymbol_px / 2.0) return std::nullopt;
+    return QLineF(symbol + way * (0.4 * kSymbol_px / length), end);
+}
+
 /// Lower left corners of a name about its symbol.
 using Corners = std::vector<QPointF>;
 
@@ -104,12 +125,13 @@ class NamePlacer {
     std::vector<PlacedName> place() {
         for (std::size_t mark = 0; mark < marks_.size(); ++mark) {
             if (!room_.seen.contains(marks_[mark].at)) continue;
-            if (!placeAtFree(mark, nearCorners(metrics_, width(mark)), false)) without_place_.push_back(mark);
+            if (!placeAtFree(mark, Where::Near)) without_place_.push_back(mark);
         }
-        for (const std::size_t mark : without_place_) {
-            if (room_.far_too && placeAtFree(mark, farCorners(metrics_, width(mark)), true)) continue;
-            placeAtLeastBad(mark);
+        for (const Where where : {Where::ClearLine, Where::AnyLine}) {
+            if (room_.far_too)
+                std::erase_if(without_place_, [&](std::size_t mark) { return placeAtFree(mark, where); });
         }
+        for (const std::size_t mark : without_place_) placeAtLeastBad(mark);
         return std::move(placed_);
     }
 
@@ -125,14 +147,34 @@ class NamePlacer {
         placed_.push_back({mark, marks_[mark].at + corner, boxAt(mark, corner), led});
         taken_.add(placed_.back().box);
     }
-    bool placeAtFree(std::size_t mark, const Corners& corners, bool led) {
+    enum class Where { Near, ClearLine, AnyLine };
+    bool placeAtFree(std::size_t mark, Where where) {
+        const bool led = where != Where::Near;
+        const Corners corners = led ? farCorners(metrics_, width(mark)) : nearCorners(metrics_, width(mark));
         const auto corner = std::find_if(corners.begin(), corners.end(), [&](QPointF c) {
             const QRectF box = boxAt(mark, c);
-            return room_.seen.contains(box) && taken_.free(box);
+            return room_.seen.contains(box) &&
+                   (where == Where::ClearLine ? freeWithLine(mark, box) : taken_.free(box));
         });
         if (corner == corners.end()) return false;
         put(mark, *corner, led);
         return true;
+    }
+    /// A line may not strike names out or join two of them, nor may a name lie on the line of another.
+    [[nodiscard]] bool freeWithLine(std::size_t mark, const QRectF& box) const {
+        constexpr double kApart_px = 4.0;
+        const auto apart = [](const QRectF& other) {
+            return other.adjusted(-kApart_px, 0.0, kApart_px, 0.0);
+        };
+        if (!taken_.free(apart(box))) return false;
+        const auto lead = leadTo(marks_[mark].at, box);
+        return std::none_of(placed_.begin(), placed_.end(), [&](const PlacedName& other) {
+            if (lead && crosses(*lead, apart(other.box))) return true;
+            const auto others = other.led ? leadTo(marks_[other.mark].at, other.box) : std::nullopt;
+            if (!others) return false;
+            return crosses(*others, apart(box)) ||
+                   (lead && lead->intersects(*others) == QLineF::BoundedIntersection);
+        });
     }
     void placeAtLeastBad(std::size_t mark) {
         constexpr double kMostCovered = 0.25;
@@ -159,18 +201,11 @@ class NamePlacer {
     std::vector<PlacedName> placed_;
 };
 
-/// From the edge of the symbol to the nearest point of the name.
-void drawLead(QPainter& painter, QPointF symbol, const QRectF& box) {
-    const QPointF end(std::clamp(symbol.x(), box.left() - 1.0, box.right() + 1.0),
-                      std::clamp(symbol.y(), box.top() + 2.0, box.bottom() - 2.0));
-    const QPointF way = end - symbol;
-    const double length = std::hypot(way.x(), way.y());
-    if (length < kSymbol_px / 2.0) return;
-    const QPointF start = symbol + way * (0.4 * kSymbol_px / length);
+void drawLead(QPainter& painter, const QLineF& lead) {
     for (const auto& [colour, width] :
          {std::pair{QColor(255, 255, 255, 200), 3.0}, std::pair{QColor(20, 24, 28), 1.0}}) {
         painter.setPen(QPen(colour, width));
-        painter.drawLine(start, end);
+        painter.drawLine(lead);
     }
 }
 
@@ -190,7 +225,8 @@ void drawMarkNames(QPainter& painter, const MarkNames& names, const QPalette& pa
     for (const PlacedName& place : names.places) {
         const MarkName& mark = names.marks[place.mark];
         painter.setOpacity(mark.opacity);
-        if (place.led) drawLead(painter, mark.at, place.box);
+        if (!place.led) continue;
+        if (const auto lead = leadTo(mark.at, place.box)) drawLead(painter, *lead);
     }
     for (const PlacedName& place : names.places) {
         const MarkName& mark = names.marks[place.mark];

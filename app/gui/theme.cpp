@@ -284,6 +284,8 @@ QIcon icon(const QString& name, const QColor& colour) {
     if (svg.isEmpty()) return made;
     addPixmaps(made, svg, ink, QIcon::Normal, QIcon::Off);
     addPixmaps(made, svg, faint, QIcon::Disabled, QIcon::Off);
+    // In a list, on the accent: the colour of a run could be as dark as that, or as light.
+    addPixmaps(made, svg, colours().on_accent, QIcon::Selected, QIcon::Off);
     drawn.insert(key, made);
     return made;
 }
