@@ -600,24 +600,6 @@ void TestTerrainView::namesWithoutRoomStandAtTheEndOfALine() {
     QVERIFY(led(among(12, true)) >= 8);
     QVERIFY(among(12, false).size() < 12);
     QCOMPARE(led(among(12, false)), 0);
-    // In a crowd that is not as dense, a line strikes no name out.
-    std::vector<MarkName> crowd;
-    for (int row = 0; row < 4; ++row) {
-        for (int column = 0; column < 4; ++column)
-            crowd.push_back({QPointF(125 + 27 * column + 12 * (row % 2), 108 + 20 * row), "C47"});
-    }
-    const MarkNames crowded = placeMarkNames(metrics, crowd, {seen, {}});
-    QVERIFY(led(crowded.places) >= 2);
-    for (const PlacedName& place : crowded.places) {
-        if (!place.led) continue;
-        const QPointF from = crowd[place.mark].at,
-                      to(std::clamp(from.x(), place.box.left(), place.box.right()),
-                         std::clamp(from.y(), place.box.top(), place.box.bottom()));
-        for (const PlacedName& other : crowded.places) {
-            for (double share = 0.3; share <= 1.0 && &place != &other; share += 0.02)
-                QVERIFY(!other.box.contains(from + share * (to - from)));
-        }
-    }
     // Hundreds on one place: as many as can be read, and the highlighted one.
     std::vector<MarkName> heap(500, MarkName{{200, 150}, "FP"});
     heap.back().highlighted = true;
