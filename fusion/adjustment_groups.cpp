@@ -29,7 +29,7 @@ std::vector<RowGroup> adjustmentGroups(bool robust) {
     set(kDoppler, "GNSS velocity", Loss::Cauchy, 3.0, true);
     set(kBarometer, "barometer noise", Loss::Huber, 2.0, true);
     set(kBarometerDrift, "barometer drift", Loss::Square, 3.0, true, 0.1, 6.0);
-    set(kGust, "barometer gusts", Loss::Cauchy, 3.0, true, 0.1, 6.0);
+    set(kGust, "barometer gusts", Loss::Square, 3.0, true, 0.1, 6.0);
     set(kFlow, "optical flow", Loss::Huber, 3.0, true, 0.3, 6.0);
     set(kBridge, "optical flow bridged", Loss::Square, 2.0, false);
     set(kFlowScale, "optical flow scale", Loss::Square, 3.0, true, 0.2, 3.0);
