@@ -128,13 +128,6 @@ class DisturbedLog {
     double step_s_;
 };
 
-Eigen::Vector3d normals(RandomNumbers& random) {
-    const double x = random.normal();
-    const double y = random.normal();
-    const double z = random.normal();
-    return {x, y, z};
-}
-
 void gnssOutliers(DisturbedLog& log) {
     RandomNumbers random = log.random();
     for (std::size_t i = 0; i < log.size(); ++i) {

@@ -1,11 +1,20 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "fusion/random_numbers.hpp"
 
 namespace terrawalk {
+
+/// Three of them, each of mean 0 and variance 1.
+inline Eigen::Vector3d normals(RandomNumbers& random) {
+    const double x = random.normal();
+    const double y = random.normal();
+    const double z = random.normal();
+    return {x, y, z};
+}
 
 /// First-order Gauss-Markov process of variance 1, in its steady state from the start. One value a step.
 class GaussMarkov {

@@ -87,13 +87,6 @@ struct SensedRun {
     }
 };
 
-Eigen::Vector3d normals(RandomNumbers& random) {
-    const double x = random.normal();
-    const double y = random.normal();
-    const double z = random.normal();
-    return {x, y, z};
-}
-
 int plannedFix(GnssMode mode, double time_s, double duration_s) {
     constexpr double kFloatAfterOutage_s = 15.0;
     switch (mode) {

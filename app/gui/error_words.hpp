@@ -526,8 +526,8 @@ inline constexpr const char* kErrorSentences[] = {
                       "the barometer puts mark %1 %2 m below its height at %3 s: check the name and the "
                       "coordinates of the mark"),
     QT_TRANSLATE_NOOP("Report", "%1: only %2 of %3 readings were used"),
-    QT_TRANSLATE_NOOP("Report",
-                      "the adjustment of all runs has not settled: the last of %1 rounds moved a track by %2 m"),
+    QT_TRANSLATE_NOOP(
+        "Report", "the adjustment of all runs has not settled: the last of %1 rounds moved a track by %2 m"),
     QT_TRANSLATE_NOOP("Report", "optical flow bridged by its recent mean for %1 s in all"),
     QT_TRANSLATE_NOOP("Report",
                       "a sensor that had been rejected for long was let in again %1 times; the track may be "

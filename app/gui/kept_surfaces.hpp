@@ -11,8 +11,8 @@
 namespace terrawalk::gui {
 
 /// Surfaces of a survey's runs on disk, so that heights can be compared after the program ended: a DEM and
-/// its standard errors for each run. Those of new runs join them while their folder is there and holds no mark
-/// that says otherwise.
+/// its standard errors for each run. Those of new runs join them while their folder is there and holds no
+/// mark that says otherwise.
 class KeptSurfaces {
   public:
     explicit KeptSurfaces(std::filesystem::path folder) : folder_(std::move(folder)) {}

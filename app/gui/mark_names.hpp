@@ -43,9 +43,9 @@ struct MarkNames {
 };
 
 /// Names right, left, above or below their symbols, none on another, on a symbol, on a pin or on what is
-/// reserved. Those that find no such place stand farther away at the end of a line, one that crosses no name and
-/// no other line where there is any, then where they lie on others by a quarter of themselves at most; else
-/// they are left out.
+/// reserved. Those that find no such place stand farther away at the end of a line, one that crosses no name
+/// and no other line where there is any, then where they lie on others by a quarter of themselves at most;
+/// else they are left out.
 [[nodiscard]] MarkNames placeMarkNames(const QFontMetricsF& metrics, std::vector<MarkName> marks,
                                        const NameRoom& room);
 void drawMarkNames(QPainter& painter, const MarkNames& names, const QPalette& palette);
