@@ -4,12 +4,14 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <span>
 #include <vector>
 
 #include "fusion/barometer.hpp"
 #include "fusion/random_numbers.hpp"
 #include "fusion/random_processes.hpp"
 #include "survey/frames.hpp"
+#include "survey/gnss_channels.hpp"
 #include "survey/survey.hpp"
 
 namespace terrawalk {
@@ -19,22 +21,11 @@ constexpr std::uint64_t kDisturbanceStream = 0x6469737475726221ULL;
 constexpr std::uint64_t kWholeSurvey = ~std::uint64_t{0};  // run number of what all runs share
 constexpr double kUsualStep_s = 0.2;                       // where a log does not say its own
 
-constexpr std::initializer_list<Channel> kPosition{Channel::Latitude, Channel::Longitude,
-                                                   Channel::EllipsoidalHeight};
-constexpr std::initializer_list<Channel> kGnss{Channel::Latitude,
-                                               Channel::Longitude,
-                                               Channel::EllipsoidalHeight,
-                                               Channel::Fix,
-                                               Channel::GnssHorizontalAccuracy,
-                                               Channel::GnssVerticalAccuracy,
-                                               Channel::GnssVelocityEast,
-                                               Channel::GnssVelocityNorth,
-                                               Channel::GnssVelocityUp};
-constexpr std::initializer_list<Channel> kBarometer{Channel::Pressure, Channel::Temperature};
-constexpr std::initializer_list<Channel> kFlow{Channel::FlowForward, Channel::FlowLeft, Channel::FlowQuality};
-constexpr std::initializer_list<Channel> kInertial{Channel::AccelerationX, Channel::AccelerationY,
-                                                   Channel::AccelerationZ, Channel::AngularRateX,
-                                                   Channel::AngularRateY,  Channel::AngularRateZ};
+constexpr std::array kBarometer{Channel::Pressure, Channel::Temperature};
+constexpr std::array kFlow{Channel::FlowForward, Channel::FlowLeft, Channel::FlowQuality};
+constexpr std::array kHeading{Channel::Heading};
+constexpr std::array kAccelerations{Channel::AccelerationX, Channel::AccelerationY, Channel::AccelerationZ};
+constexpr std::array kRates{Channel::AngularRateX, Channel::AngularRateY, Channel::AngularRateZ};
 
 /// One run's log on its way to be disturbed.
 class DisturbedLog {
@@ -48,7 +39,6 @@ class DisturbedLog {
           step_s_(present(log.sample_interval_s) ? log.sample_interval_s : kUsualStep_s) {}
 
     [[nodiscard]] std::size_t size() const { return log_.size(); }
-    [[nodiscard]] double step_s() const { return step_s_; }
     [[nodiscard]] double time_s(std::size_t i) const { return log_.time_s[i] - log_.time_s.front(); }
 
     /// @param purpose  tells several streams of one disturbance apart
@@ -70,13 +60,10 @@ class DisturbedLog {
     void replace(Channel c, std::size_t i, double value) {
         if (present(log_.value(c, i))) log_.column(c)[i] = value;
     }
-    void silence(std::initializer_list<Channel> channels, std::size_t i) {
+    void silence(std::span<const Channel> channels, std::size_t i) {
         for (const Channel c : channels) replace(c, i, kMissing);
-        if (present(log_.value(Channel::Fix, i)) && channels.size() == kGnss.size()) {
-            log_.column(Channel::Fix)[i] = fix_code::kNone;
-        }
     }
-    void silence(std::initializer_list<Channel> channels) {
+    void silence(std::span<const Channel> channels) {
         for (const Channel c : channels) log_.column(c).clear();
     }
 
@@ -101,7 +88,7 @@ class DisturbedLog {
         log_.column(Channel::Heading)[i] = turned_rad < 0.0 ? turned_rad + 2.0 * kPi : turned_rad;
     }
     /// Each epoch gets what was read `by_s` earlier; the first ones nothing.
-    void delay(std::initializer_list<Channel> channels, double by_s) {
+    void delay(std::span<const Channel> channels, double by_s) {
         for (const Channel c : channels) {
             if (!log_.has(c)) continue;
             std::vector<double>& column = log_.column(c);
@@ -165,8 +152,8 @@ void barometerRamp(DisturbedLog& log) {
     for (std::size_t i = 0; i < log.size(); ++i) log.raiseBarometer(i, slope_mps * log.time_s(i));
 }
 
-/// `disturbLog(value, i)` of a value that steps to another one every `period_s`, with the first of them from
-/// a time between 0 and that.
+/// Calls `apply(epoch, value)` with a value that is zero at first and from then on drawn anew every
+/// `period_s`.
 template <class Apply>
 void inSteps(DisturbedLog& log, double period_s, double size, Apply&& apply) {
     RandomNumbers random = log.random();
@@ -236,12 +223,18 @@ void rangeShort(DisturbedLog& log) {
 
 void scatteredSilence(DisturbedLog& log) {
     std::uint64_t purpose = 0;
-    for (const auto& channels : {kGnss, kBarometer, kFlow, {Channel::Heading}, kInertial}) {
+    const auto silence = [&](std::initializer_list<std::span<const Channel>> sensor) {
         Bursts bursts = log.bursts(60.0, {0.4, 1.6}, purpose++);
         for (std::size_t i = 0; i < log.size(); ++i) {
-            if (bursts.next().active) log.silence(channels, i);
+            if (!bursts.next().active) continue;
+            for (const auto& channels : sensor) log.silence(channels, i);
         }
-    }
+    };
+    silence({kGnssChannels});
+    silence({kBarometer});
+    silence({kFlow});
+    silence({kHeading});
+    silence({kAccelerations, kRates});
 }
 
 void heavyTails(DisturbedLog& log) {
@@ -258,12 +251,8 @@ void heavyTails(DisturbedLog& log) {
         log.turnHeading(i, extra(radians(0.5)));
         log.add(Channel::FlowForward, i, extra(0.1));
         log.add(Channel::FlowLeft, i, extra(0.1));
-        for (const Channel c : {Channel::AccelerationX, Channel::AccelerationY, Channel::AccelerationZ}) {
-            log.add(c, i, extra(0.03));
-        }
-        for (const Channel c : {Channel::AngularRateX, Channel::AngularRateY, Channel::AngularRateZ}) {
-            log.add(c, i, extra(radians(0.1)));
-        }
+        for (const Channel c : kAccelerations) log.add(c, i, extra(0.03));
+        for (const Channel c : kRates) log.add(c, i, extra(radians(0.1)));
         log.add(Channel::Range, i, extra(range_m));
     }
 }
@@ -279,7 +268,7 @@ void disturb(DisturbedLog& log, Disturbance disturbance) {
         case Disturbance::GnssDrift:
             return gnssDrift(log);
         case Disturbance::GnssLate:
-            return log.delay(kGnss, 0.4);
+            return log.delay(kGnssChannels, 0.4);
         case Disturbance::BarometerRamp:
             return barometerRamp(log);
         case Disturbance::BarometerSteps:

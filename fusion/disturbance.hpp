@@ -9,8 +9,8 @@ namespace terrawalk {
 
 struct Survey;
 
-/// An error of the kind that real sensors make and that the simulator's levels of faults lack. Estimators are
-/// not chosen by such; they show how an estimator bears what its model does not know. 1 sigma unless named.
+/// An error of the kind that real sensors make and that the simulator's levels of faults lack: they
+/// show what an estimator bears beside what it was tuned on. 1 sigma unless named.
 enum class Disturbance : std::uint8_t {
     GnssOutliers,      ///< one position in ten, alone, off by 6 m per axis
     GnssOffset,        ///< all positions of the survey off by 3 m in plan, by 4 m up
@@ -28,8 +28,9 @@ enum class Disturbance : std::uint8_t {
     HeadingOffset,     ///< each run's heading off by 10 degrees
     HeadingSteps,      ///< off by 12 degrees, anew every two minutes, as beside iron
     RangeShort,        ///< one hit in twenty 0.2 to 1 m short, as of leaves
-    ScatteredSilence,  ///< each sensor silent for half of the time, in stretches of a second or so
-    HeavyTails,        ///< one reading in twenty of every sensor off by five times its white noise more
+    ScatteredSilence,  ///< GNSS, barometer, flow, heading and accelerations with rates: each silent for half
+                       ///< of the time, in stretches of a second or so
+    HeavyTails,        ///< one reading in twenty of every sensor but GNSS off by five times its white noise
 };
 
 inline constexpr std::array<std::pair<Disturbance, std::string_view>, 18> kDisturbanceNames{

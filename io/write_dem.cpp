@@ -174,7 +174,7 @@ std::vector<Covered> coverage(std::size_t fine, std::size_t coarse) {
     return covered;
 }
 
-/// A raster of half the size: means of the cells that have a value. GDAL's own way takes ten times as long.
+/// A raster of half the size: means of the cells that have a value. GDAL's own way takes longer.
 std::vector<float> halved(const float* fine, std::size_t fine_columns, std::size_t fine_rows,
                           std::size_t columns, std::size_t rows) {
     const std::vector<Covered> across = coverage(fine_columns, columns), down = coverage(fine_rows, rows);

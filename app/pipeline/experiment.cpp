@@ -25,7 +25,7 @@ constexpr std::array kExperiments{
     Experiment{"fig14", "Paper 000, Fig 14: height error of raw, untuned and tuned surfaces", runFig14},
     Experiment{"fig15", "Paper 000, Fig 15: five points, each walked to ten times", runFig15},
     Experiment{"accuracy", "Simulated surveys against their truth, by level of faults", runAccuracy},
-    Experiment{"robustness", "Simulated surveys with errors that no sensor model here knows", runRobustness},
+    Experiment{"robustness", "Simulated surveys with errors that no level of faults has", runRobustness},
     Experiment{"coverage", "Standard errors of DEM and volume on simulated surveys", runCoverage},
     Experiment{"outage", "GNSS masked for 10, 30 and 60 s in a survey's logs, or in a simulated walk's",
                runOutage, true},

@@ -7,21 +7,12 @@
 #include <utility>
 
 #include "fusion/fuse_survey.hpp"
+#include "survey/gnss_channels.hpp"
 #include "survey/parallel.hpp"
 
 namespace terrawalk {
 
 namespace {
-
-constexpr std::array kGnssChannels{Channel::Latitude,
-                                   Channel::Longitude,
-                                   Channel::EllipsoidalHeight,
-                                   Channel::Fix,
-                                   Channel::GnssHorizontalAccuracy,
-                                   Channel::GnssVerticalAccuracy,
-                                   Channel::GnssVelocityEast,
-                                   Channel::GnssVelocityNorth,
-                                   Channel::GnssVelocityUp};
 
 /// A stretch of time, from after its start to its end.
 struct Stretch {

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <set>
 
 #include "fusion/simulation.hpp"
+#include "tests/support/same_bits.hpp"
 #include "tests/support/small_survey.hpp"
 
 namespace terrawalk {
@@ -27,11 +27,6 @@ SimulationOptions fieldWithDoppler() {
 Survey disturbed(Survey survey, Disturbance disturbance, std::uint64_t seed = 3) {
     disturb(survey, disturbance, seed);
     return survey;
-}
-
-bool sameBits(const std::vector<double>& a, const std::vector<double>& b) {
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
 
 std::set<Channel> changedChannels(const Survey& before, const Survey& after) {

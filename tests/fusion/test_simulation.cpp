@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
 
 #include "fusion/barometer.hpp"
 #include "fusion/simulated_sensors.hpp"
 #include "survey/mark_stands.hpp"
+#include "tests/support/same_bits.hpp"
 #include "tests/support/small_survey.hpp"
 
 namespace terrawalk {
@@ -46,11 +46,6 @@ SimulationOptions exactPlot() {
     options.range_lever_arm_m = {0.05, -0.02, -0.04};
     options.gnss_lever_arm_m = {-0.03, 0.01, 0.12};
     return options;
-}
-
-bool sameBits(const std::vector<double>& a, const std::vector<double>& b) {
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
 
 bool sameColumns(const ArrayLog& a, const ArrayLog& b, std::initializer_list<Channel> channels) {

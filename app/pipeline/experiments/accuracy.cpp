@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -14,30 +13,25 @@
 #include "app/pipeline/config.hpp"
 #include "app/pipeline/experiments/experiments.hpp"
 #include "app/pipeline/experiments/planned_surveys.hpp"
-#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
 namespace {
 
-struct Measure {
-    std::string_view name;
-    double AccuracyMeasures::*value;
-};
 constexpr std::array kMeasures{
-    Measure{"H [m]", &AccuracyMeasures::mean_horizontal_error_m},
-    Measure{"Z [m]", &AccuracyMeasures::mean_height_error_m},
-    Measure{"CK [m]", &AccuracyMeasures::check_point_error_m},
-    Measure{"CK floor [m]", &AccuracyMeasures::check_point_floor_m},
-    Measure{"CK/floor", &AccuracyMeasures::check_point_ratio},
-    Measure{"S [m]", &AccuracyMeasures::surface_error_m},
-    Measure{"S floor [m]", &AccuracyMeasures::surface_floor_m},
-    Measure{"S/floor", &AccuracyMeasures::surface_ratio},
-    Measure{"N up", &AccuracyMeasures::normalized_height_error},
-    Measure{"N plan", &AccuracyMeasures::normalized_horizontal_error},
-    Measure{"within 1.96 sigma up", &AccuracyMeasures::height_coverage},
-    Measure{"end H RMS [m]", &AccuracyMeasures::rms_end_horizontal_m},
-    Measure{"end Z RMS [m]", &AccuracyMeasures::rms_end_height_m},
+    AccuracyColumn{"H [m]", &AccuracyMeasures::mean_horizontal_error_m},
+    AccuracyColumn{"Z [m]", &AccuracyMeasures::mean_height_error_m},
+    AccuracyColumn{"CK [m]", &AccuracyMeasures::check_point_error_m},
+    AccuracyColumn{"CK floor [m]", &AccuracyMeasures::check_point_floor_m},
+    AccuracyColumn{"CK/floor", &AccuracyMeasures::check_point_ratio},
+    AccuracyColumn{"S [m]", &AccuracyMeasures::surface_error_m},
+    AccuracyColumn{"S floor [m]", &AccuracyMeasures::surface_floor_m},
+    AccuracyColumn{"S/floor", &AccuracyMeasures::surface_ratio},
+    AccuracyColumn{"N up", &AccuracyMeasures::normalized_height_error},
+    AccuracyColumn{"N plan", &AccuracyMeasures::normalized_horizontal_error},
+    AccuracyColumn{"within 1.96 sigma up", &AccuracyMeasures::height_coverage},
+    AccuracyColumn{"end H RMS [m]", &AccuracyMeasures::rms_end_horizontal_m},
+    AccuracyColumn{"end Z RMS [m]", &AccuracyMeasures::rms_end_height_m},
 };
 
 struct Method {
@@ -91,20 +85,20 @@ void addGroup(std::span<const Trial> trials, std::size_t m, const std::string& m
     for (const Trial& trial : trials) {
         const Result<AccuracyMeasures>& measured = trial.measured[m];
         if (!measured) {
-            report.notes.push_back(fmt::format("{}, {}, seed {}, {}: {}; left out of the means", level, ties,
-                                               trial.seed, method, measured.error().text()));
+            report.notes.push_back(leftOutOfMeans(
+                fmt::format("{}, {}, seed {}, {}", level, ties, trial.seed, method), measured.error()));
             continue;
         }
         good.push_back(*measured);
         std::vector<Cell> row{level, ties, method, static_cast<double>(trial.seed)};
-        for (const Measure& column : kMeasures) row.emplace_back((*measured).*column.value);
+        for (const AccuracyColumn& column : kMeasures) row.emplace_back((*measured).*column.value);
         report.data.rows.push_back(std::move(row));
         dots.points.emplace_back(static_cast<double>(trial.seed), measured->check_point_ratio);
     }
     panel.series.push_back(std::move(dots));
     if (good.empty()) return;
     std::vector<Cell> row{level, ties, method};
-    for (const Measure& column : kMeasures) {
+    for (const AccuracyColumn& column : kMeasures) {
         double sum = 0.0;
         for (const AccuracyMeasures& one : good) sum += one.*column.value;
         row.emplace_back(sum / static_cast<double>(good.size()));
@@ -141,19 +135,15 @@ Result<ExperimentReport> runAccuracy(const ExperimentOptions& options, Progress&
     const std::uint64_t first_seed = 100 * options.seed + 1;
     std::vector<Trial> trials;
     for (const PlannedSurvey& planned : plannedSurveys(first_seed, surveys)) trials.push_back({planned, {}});
-    std::atomic<std::size_t> done = 0;
-    parallelFor(trials.size(), [&](std::size_t i) {
-        if (stop.stop_requested()) return;
-        measure(trials[i], *compared, stop);
-        progress.report(static_cast<double>(++done) / static_cast<double>(trials.size()),
-                        "simulated surveys");
-    });
-    if (stop.stop_requested()) return cancelled();
+    const auto work = [&](Trial& trial) {
+        measure(trial, *compared, stop);
+    };
+    if (auto done = workOnTrials(trials, work, progress, stop); !done) return tl::unexpected(done.error());
 
     ExperimentReport report{.title = "Accuracy on simulated surveys against their truth"};
     report.summary.columns = {"faults", "marks", "method"};
     report.data.columns = {"faults", "marks", "method", "seed"};
-    for (const Measure& column : kMeasures) {
+    for (const AccuracyColumn& column : kMeasures) {
         report.summary.columns.emplace_back(column.name);
         report.data.columns.emplace_back(column.name);
     }

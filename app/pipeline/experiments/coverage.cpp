@@ -4,13 +4,11 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <cmath>
 
 #include "app/pipeline/accuracy_measure.hpp"
 #include "app/pipeline/experiments/experiments.hpp"
 #include "app/pipeline/experiments/planned_surveys.hpp"
-#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
@@ -49,14 +47,10 @@ Result<ExperimentReport> runCoverage(const ExperimentOptions& options, Progress&
     for (const PlannedSurvey& planned : plannedSurveys(first_seed, surveys)) {
         trials.push_back({planned, cancelled()});
     }
-    std::atomic<std::size_t> done = 0;
-    parallelFor(trials.size(), [&](std::size_t i) {
-        if (stop.stop_requested()) return;
-        measure(trials[i], stop);
-        progress.report(static_cast<double>(++done) / static_cast<double>(trials.size()),
-                        "simulated surveys");
-    });
-    if (stop.stop_requested()) return cancelled();
+    const auto work = [&](Trial& trial) {
+        measure(trial, stop);
+    };
+    if (auto done = workOnTrials(trials, work, progress, stop); !done) return tl::unexpected(done.error());
 
     ExperimentReport report{.title = "Standard errors of DEM and volume against the true ground"};
     report.data.columns = {"faults",
@@ -80,8 +74,8 @@ Result<ExperimentReport> runCoverage(const ExperimentOptions& options, Progress&
         for (std::size_t i = first; i < first + surveys; ++i) {
             const Trial& trial = trials[i];
             if (!trial.coverage) {
-                report.notes.push_back(fmt::format("{}, {}, seed {}: {}; left out of the means", level, ties,
-                                                   trial.seed, trial.coverage.error().text()));
+                report.notes.push_back(leftOutOfMeans(fmt::format("{}, {}, seed {}", level, ties, trial.seed),
+                                                      trial.coverage.error()));
                 continue;
             }
             const DemCoverage& c = *trial.coverage;

@@ -1,10 +1,8 @@
-// How the estimator bears errors that its model does not know: simulated surveys of a good day, one kind of
-// disturbance at a time.
+// What the estimator bears: simulated surveys of a good day, one kind of disturbance at a time.
 
 #include <fmt/format.h>
 
 #include <array>
-#include <atomic>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,23 +13,18 @@
 #include "app/pipeline/experiments/experiments.hpp"
 #include "app/pipeline/experiments/planned_surveys.hpp"
 #include "fusion/disturbance.hpp"
-#include "survey/parallel.hpp"
 
 namespace terrawalk {
 
 namespace {
 
-struct Measure {
-    std::string_view name;
-    double AccuracyMeasures::*value;
-};
 constexpr std::array kMeasures{
-    Measure{"H [m]", &AccuracyMeasures::mean_horizontal_error_m},
-    Measure{"CK/floor", &AccuracyMeasures::check_point_ratio},
-    Measure{"S/floor", &AccuracyMeasures::surface_ratio},
-    Measure{"N up", &AccuracyMeasures::normalized_height_error},
-    Measure{"N plan", &AccuracyMeasures::normalized_horizontal_error},
-    Measure{"within 1.96 sigma up", &AccuracyMeasures::height_coverage},
+    AccuracyColumn{"H [m]", &AccuracyMeasures::mean_horizontal_error_m},
+    AccuracyColumn{"CK/floor", &AccuracyMeasures::check_point_ratio},
+    AccuracyColumn{"S/floor", &AccuracyMeasures::surface_ratio},
+    AccuracyColumn{"N up", &AccuracyMeasures::normalized_height_error},
+    AccuracyColumn{"N plan", &AccuracyMeasures::normalized_horizontal_error},
+    AccuracyColumn{"within 1.96 sigma up", &AccuracyMeasures::height_coverage},
 };
 
 struct Trial {
@@ -81,8 +74,8 @@ void addGroup(std::span<const Trial> trials, ExperimentReport& report, PlotPanel
     double good = 0.0;
     for (const Trial& trial : trials) {
         if (!trial.measured) {
-            report.notes.push_back(fmt::format("{}, {}, seed {}: {}; left out of the means", disturbance,
-                                               ties, trial.seed, trial.measured.error().text()));
+            report.notes.push_back(leftOutOfMeans(
+                fmt::format("{}, {}, seed {}", disturbance, ties, trial.seed), trial.measured.error()));
             continue;
         }
         std::vector<Cell> row{disturbance, ties, static_cast<double>(trial.seed)};
@@ -110,19 +103,15 @@ Result<ExperimentReport> runRobustness(const ExperimentOptions& options, Progres
     const std::uint64_t surveys = options.quick ? 1 : 8;
     const std::uint64_t first_seed = 100 * options.seed + 1;
     std::vector<Trial> trials = plannedTrials(first_seed, surveys);
-    std::atomic<std::size_t> done = 0;
-    parallelFor(trials.size(), [&](std::size_t i) {
-        if (stop.stop_requested()) return;
-        measure(trials[i], stop);
-        progress.report(static_cast<double>(++done) / static_cast<double>(trials.size()),
-                        "simulated surveys");
-    });
-    if (stop.stop_requested()) return cancelled();
+    const auto work = [&](Trial& trial) {
+        measure(trial, stop);
+    };
+    if (auto done = workOnTrials(trials, work, progress, stop); !done) return tl::unexpected(done.error());
 
-    ExperimentReport report{.title = "Errors that no sensor model here knows"};
+    ExperimentReport report{.title = "Errors that no level of faults has"};
     report.summary.columns = {"disturbance", "marks"};
     report.data.columns = {"disturbance", "marks", "seed"};
-    for (const Measure& column : kMeasures) {
+    for (const AccuracyColumn& column : kMeasures) {
         report.summary.columns.emplace_back(column.name);
         report.data.columns.emplace_back(column.name);
     }
